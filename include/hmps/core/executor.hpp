@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <vector>
+
+namespace hmps {
+
+namespace detail {
+struct AnyBody {
+  void operator()(std::size_t) const {}
+};
+}  // namespace detail
+
+/// Runs loops for the library. Valid expression: `execute(n, body)`, which calls `body(i)` exactly
+/// once for every `i` in `[0, n)`, in any order and possibly at the same time, and returns when
+/// all calls have returned. Satisfied by `Serial`, `OpenMP` and `OneTBB`, or by a user's lambda.
+/// Loop bodies of the library never write to the same place, so results do not depend on it.
+template <class E>
+concept Executor = requires(const E& execute, std::size_t n, detail::AnyBody body) { execute(n, body); };
+
+/// Runs every loop in order on the calling thread.
+struct Serial {
+  template <class Body>
+  void operator()(std::size_t n, Body&& body) const {
+    for (std::size_t i = 0; i < n; ++i) body(i);
+  }
+};
+
+/// Folds `term(i)` for `i` in `[0, n)` with `combine`, starting from `start`. Chunks have a fixed
+/// length and are combined in order, so the bits do not depend on the executor.
+template <class T, class Term, class Combine, Executor E = Serial>
+[[nodiscard]] T reduce(std::size_t n, T start, Term&& term, Combine&& combine, const E& execute = {}) {
+  constexpr std::size_t chunk = 1024;
+  const std::size_t chunks = (n + chunk - 1) / chunk;
+  std::vector<T> partial(chunks, start);
+  execute(chunks, [&](std::size_t c) {
+    const std::size_t end = std::min(n, (c + 1) * chunk);
+    T sum = term(c * chunk);
+    for (std::size_t i = c * chunk + 1; i < end; ++i) sum = combine(sum, term(i));
+    partial[c] = sum;
+  });
+  T result = start;
+  for (const T& part : partial) result = combine(result, part);
+  return result;
+}
+
+}  // namespace hmps

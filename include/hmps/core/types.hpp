@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+/// Particle mechanics for soft tissue by the Hamiltonian MPS method. SI units everywhere.
+namespace hmps {
+
+/// Index of a particle in the user's arrays. 32 bits: a list of bonds is what fills memory.
+using Index = std::uint32_t;
+
+/// A small vector of `D` components. Unaligned on purpose: its layout is the same whatever
+/// instruction set and Eigen alignment a translation unit is compiled for.
+template <class T, int D>
+using Vector = Eigen::Matrix<T, D, 1, Eigen::DontAlign>;
+
+/// A `D` by `D` tensor, column-major, unaligned for the same reason as `Vector`.
+template <class T, int D>
+using Matrix = Eigen::Matrix<T, D, D, Eigen::DontAlign>;
+
+}  // namespace hmps

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+namespace hmps {
+
+/// Executor on oneTBB's current task arena; opt-in: link TBB::tbb yourself.
+struct OneTBB {
+  std::size_t grain = 1;  ///< Fewest loop iterations that one task runs.
+
+  template <class Body>
+  void operator()(std::size_t n, Body&& body) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+    });
+  }
+};
+
+}  // namespace hmps
