@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#include "hmps/core/types.hpp"
+
+namespace hmps {
+
+// What the laws and the kernels need of small tensors, in few operations. `T` may be an arithmetic
+// type or a pack of lanes: only + - * / and functions found by argument-dependent lookup are used,
+// and no branch depends on a value.
+
+/// `x` to the power -1/3. Packs of lanes bring their own overload. For `x < 0` the real root.
+template <class T>
+requires std::is_floating_point_v<T>
+[[nodiscard]] T inverse_cube_root(T x) { return T(1) / std::cbrt(x); }
+
+/// `yes` where `mask` holds, `no` elsewhere: the branch of code that also runs on packs of lanes.
+template <class T>
+requires std::is_arithmetic_v<T>
+[[nodiscard]] constexpr T select(bool mask, T yes, T no) { return mask ? yes : no; }
+
+/// The trace of `M`.
+template <class T, int D>
+[[nodiscard]] T trace(const Matrix<T, D>& M) {
+  static_assert(D == 2 || D == 3, "hmps: tensors are 2 x 2 or 3 x 3");
+  if constexpr (D == 2) {
+    return M(0, 0) + M(1, 1);
+  } else {
+    return M(0, 0) + M(1, 1) + M(2, 2);
+  }
+}
+
+/// The double contraction A : B, the sum of the products of equal components.
+template <class T, int D>
+[[nodiscard]] T contract(const Matrix<T, D>& A, const Matrix<T, D>& B) {
+  T sum = A(0, 0) * B(0, 0);
+  for (int k = 1; k < D * D; ++k) sum = sum + A(k % D, k / D) * B(k % D, k / D);
+  return sum;
+}
+
+/// The determinant of `M`.
+template <class T, int D>
+[[nodiscard]] T determinant(const Matrix<T, D>& M) {
+  static_assert(D == 2 || D == 3, "hmps: tensors are 2 x 2 or 3 x 3");
+  if constexpr (D == 2) {
+    return M(0, 0) * M(1, 1) - M(0, 1) * M(1, 0);
+  } else {
+    return M(0, 0) * (M(1, 1) * M(2, 2) - M(1, 2) * M(2, 1)) + M(0, 1) * (M(1, 2) * M(2, 0) - M(1, 0) * M(2, 2)) +
+           M(0, 2) * (M(1, 0) * M(2, 1) - M(1, 1) * M(2, 0));
+  }
+}
+
+/// The cofactor matrix of `M`, det(M) M^-T: the derivative of the determinant. Finite for every `M`.
+template <class T, int D>
+[[nodiscard]] Matrix<T, D> cofactor(const Matrix<T, D>& M) {
+  static_assert(D == 2 || D == 3, "hmps: tensors are 2 x 2 or 3 x 3");
+  Matrix<T, D> K;
+  if constexpr (D == 2) {
+    K(0, 0) = M(1, 1);
+    K(0, 1) = -M(1, 0);
+    K(1, 0) = -M(0, 1);
+    K(1, 1) = M(0, 0);
+  } else {
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) {
+        const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+        K(r, c) = M(r1, c1) * M(r2, c2) - M(r1, c2) * M(r2, c1);
+      }
+    }
+  }
+  return K;
+}
+
+/// The cofactor matrix of a symmetric `M`, which is symmetric too: det(M) M^-1 with six cofactors
+/// in place of nine.
+template <class T, int D>
+[[nodiscard]] Matrix<T, D> symmetric_cofactor(const Matrix<T, D>& M) {
+  if constexpr (D == 2) {
+    return cofactor(M);
+  } else {
+    Matrix<T, D> K;
+    K(0, 0) = M(1, 1) * M(2, 2) - M(1, 2) * M(1, 2);
+    K(1, 1) = M(0, 0) * M(2, 2) - M(0, 2) * M(0, 2);
+    K(2, 2) = M(0, 0) * M(1, 1) - M(0, 1) * M(0, 1);
+    K(0, 1) = K(1, 0) = M(0, 2) * M(1, 2) - M(0, 1) * M(2, 2);
+    K(0, 2) = K(2, 0) = M(0, 1) * M(1, 2) - M(0, 2) * M(1, 1);
+    K(1, 2) = K(2, 1) = M(0, 1) * M(0, 2) - M(0, 0) * M(1, 2);
+    return K;
+  }
+}
+
+/// The inverse of `M`. A singular `M` gives infinities or NaN: check `determinant` first.
+template <class T, int D>
+[[nodiscard]] Matrix<T, D> inverse(const Matrix<T, D>& M) {
+  const Matrix<T, D> K = cofactor(M);
+  T det = M(0, 0) * K(0, 0);
+  for (int c = 1; c < D; ++c) det = det + M(0, c) * K(0, c);
+  const T scale = T(1) / det;
+  Matrix<T, D> result;
+  for (int c = 0; c < D; ++c)
+    for (int r = 0; r < D; ++r) result(r, c) = K(c, r) * scale;
+  return result;
+}
+
+/// The matrix product A B, without any detour of the linear-algebra library.
+template <class T, int D>
+[[nodiscard]] Matrix<T, D> product(const Matrix<T, D>& A, const Matrix<T, D>& B) {
+  Matrix<T, D> result;
+  for (int c = 0; c < D; ++c) {
+    for (int r = 0; r < D; ++r) {
+      T sum = A(r, 0) * B(0, c);
+      for (int k = 1; k < D; ++k) sum = sum + A(r, k) * B(k, c);
+      result(r, c) = sum;
+    }
+  }
+  return result;
+}
+
+/// The right Cauchy-Green tensor C = F^T F; symmetric to the last bit.
+template <class T, int D>
+[[nodiscard]] Matrix<T, D> right_cauchy_green(const Matrix<T, D>& F) {
+  Matrix<T, D> C;
+  for (int c = 0; c < D; ++c) {
+    for (int r = 0; r <= c; ++r) {
+      T sum = F(0, r) * F(0, c);
+      for (int k = 1; k < D; ++k) sum = sum + F(k, r) * F(k, c);
+      C(r, c) = sum;
+      if (r != c) C(c, r) = sum;
+    }
+  }
+  return C;
+}
+
+}  // namespace hmps

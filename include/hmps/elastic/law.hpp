@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps {
+
+/// A hyperelastic law, \paper{14}: S = 2 dW/dC. Valid expression:
+///
+/// | expression | gives |
+/// |---|---|
+/// | `law.second_piola_kirchhoff(C, J)` | the second Piola-Kirchhoff stress S in Pa, symmetric |
+///
+/// `C` is the right Cauchy-Green tensor F^T F and `J` is det F with its sign, which `C` alone no
+/// longer knows. For `D = 2` both belong to plane strain (F33 = 1). Satisfied by `MooneyRivlin`,
+/// `NeoHookean` and `SaintVenantKirchhoff`, or by any small struct of the user's. A law that is a
+/// template over `T` with only + - * / on values of `T` also runs on packs of lanes.
+template <class Law, class T = double, int D = 3>
+concept HyperelasticLaw = requires(const Law& law, const Matrix<T, D>& C, const T& J) {
+  { law.second_piola_kirchhoff(C, J) } -> std::convertible_to<Matrix<T, D>>;
+};
+
+/// A law of the deformation gradient itself. Valid expression: `law.first_piola_kirchhoff(F)`, the
+/// first Piola-Kirchhoff stress dW/dF in Pa. Satisfied by `LinearElastic` and `Continued`.
+template <class Law, class T = double, int D = 3>
+concept DeformationGradientLaw = requires(const Law& law, const Matrix<T, D>& F) {
+  { law.first_piola_kirchhoff(F) } -> std::convertible_to<Matrix<T, D>>;
+};
+
+/// Either kind of law, for the scalar (or pack of lanes) `T` in `D` dimensions.
+template <class Law, class T = double, int D = 3>
+concept ConstitutiveLaw = HyperelasticLaw<Law, T, D> || DeformationGradientLaw<Law, T, D>;
+
+/// The law also knows its energy: `law.energy(C, J)` of a hyperelastic law, `law.energy(F)` of a
+/// law of the deformation gradient, in J/m3. Only diagnostics ask for it.
+template <class Law, class T = double, int D = 3>
+concept LawWithEnergy = ConstitutiveLaw<Law, T, D> &&(
+    requires(const Law& law, const Matrix<T, D>& C, const T& J) {
+      { law.energy(C, J) } -> std::convertible_to<T>;
+    } ||
+    requires(const Law& law, const Matrix<T, D>& F) {
+      { law.energy(F) } -> std::convertible_to<T>;
+    });
+
+/// The first Piola-Kirchhoff stress in Pa, \paper{7}: F S, at the deformation gradient `F`.
+template <class Law, class T, int D>
+[[nodiscard]] Matrix<T, D> first_piola_kirchhoff(const Law& law, const Matrix<T, D>& F) {
+  static_assert(ConstitutiveLaw<Law, T, D>,
+                "hmps: a law needs second_piola_kirchhoff(C, J) or first_piola_kirchhoff(F), const, taking and "
+                "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar");
+  if constexpr (DeformationGradientLaw<Law, T, D>) {
+    return law.first_piola_kirchhoff(F);
+  } else {
+    const Matrix<T, D> C = right_cauchy_green(F);
+    const T J = determinant(F);
+    const Matrix<T, D> S = law.second_piola_kirchhoff(C, J);
+    return product(F, S);
+  }
+}
+
+/// The strain energy per reference volume in J/m3 at the deformation gradient `F`.
+template <class Law, class T, int D>
+[[nodiscard]] T energy_density(const Law& law, const Matrix<T, D>& F) {
+  static_assert(LawWithEnergy<Law, T, D>,
+                "hmps: this law has no energy; give it energy(C, J), or energy(F) if it is a law of the deformation "
+                "gradient, const and returning T");
+  if constexpr (DeformationGradientLaw<Law, T, D>) {
+    return law.energy(F);
+  } else {
+    const Matrix<T, D> C = right_cauchy_green(F);
+    const T J = determinant(F);
+    return law.energy(C, J);
+  }
+}
+
+/// The speed of longitudinal waves in m/s at zero strain, sqrt((K + 4 G / 3) / rho), for a law with
+/// `bulk_modulus()` and `shear_modulus()` in Pa and a `density` in kg/m3. Throws `InputError` for a
+/// density that is not positive.
+template <class Law, class P>
+[[nodiscard]] auto sound_speed(const Law& law, P density) {
+  static_assert(
+      requires { law.bulk_modulus() + law.shear_modulus(); },
+      "hmps: the sound speed needs a law with bulk_modulus() and shear_modulus()");
+  require(density > P(0), "hmps: the density is ", density, " kg/m3; it must be positive (soft tissue: about 1000)");
+  return std::sqrt((law.bulk_modulus() + law.shear_modulus() * P(4) / P(3)) / density);
+}
+
+namespace detail {
+
+/// Throws `InputError` unless the modulus `value` is positive and finite.
+template <class P>
+void require_modulus(P value, const char* law, const char* name, const char* remedy) {
+  require(value > P(0) && value - value == P(0), "hmps: the ", name, " of ", law, " is ", value,
+          " Pa; it must be positive and finite: ", remedy);
+}
+
+}  // namespace detail
+
+}  // namespace hmps
