@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "hmps/core/error.hpp"
+
+/// Small helpers that the example programs share. They are no part of the library.
+namespace examples {
+
+namespace fs = std::filesystem;
+
+/// Replaces the file at `path` by `bytes`, such that at any moment, also after kill -9 or a loss of
+/// power, either the old or the new file is there and whole: written beside it, flushed to the disk,
+/// then renamed. Throws `InputError` with the reason if that fails.
+inline void write_atomically(const fs::path& path, std::string_view bytes) {
+  const fs::path temporary = path.string() + ".part";
+  const auto fail = [&](const char* what) {
+    throw hmps::InputError(hmps::message("cannot ", what, " ", path.string(), ": ", std::strerror(errno),
+                                         "; check the permissions and the free space of the output folder"));
+  };
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) fail("write");
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      ::close(file);
+      fail("write");
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  const bool flushed = ::fsync(file) == 0;
+  if (::close(file) != 0 || !flushed) fail("write");
+  if (::rename(temporary.c_str(), path.c_str()) != 0) fail("replace");
+}
+
+/// The bytes of the file at `path`. Throws `InputError` if it cannot be read.
+[[nodiscard]] inline std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  hmps::require(static_cast<bool>(file), "cannot read ", path.string(), ": ", std::strerror(errno));
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Makes the folder at `path` if it is missing and proves that files can be written there, so that a
+/// long run does not end in front of a closed door. Throws `InputError` that names the folder.
+inline void prepare_folder(const fs::path& path) {
+  std::error_code problem;
+  fs::create_directories(path, problem);
+  hmps::require(fs::is_directory(path), "cannot make the output folder ", path.string(), ": ",
+                problem ? problem.message() : "a file of that name is in the way", "; choose another one with --out");
+  const fs::path probe = path / ".writable";
+  std::ofstream file(probe);
+  file << "probe\n";
+  file.close();
+  const bool written = static_cast<bool>(file);
+  const std::string reason = written ? "" : std::strerror(errno);
+  fs::remove(probe, problem);
+  hmps::require(written, "cannot write to the output folder ", path.string(), ": ", reason,
+                "; choose another one with --out or change its permissions");
+}
+
+}  // namespace examples

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "checkpoint.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace swallowing {
+
+namespace {
+
+constexpr std::string_view magic = "hmps swallowing checkpoint\n";
+constexpr std::uint64_t version = 1;
+/// Reads back as another number where the order of bytes differs.
+constexpr std::uint64_t byte_order = 0x0102030405060708;
+
+/// A checksum of 64 bits over whole words, fast enough not to be noticed. Every step is invertible,
+/// so that no change of one word goes unseen.
+[[nodiscard]] std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  const auto mix = [&](std::uint64_t word) {
+    sum = (sum ^ word) * 0x9e3779b97f4a7c15;
+    sum ^= sum >> 29;
+  };
+  mix(bytes.size());
+  for (std::size_t at = 0; at < bytes.size(); at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min<std::size_t>(8, bytes.size() - at));
+    mix(word);
+  }
+  return sum;
+}
+
+struct Writer {
+  std::string bytes;
+  template <class T>
+  void number(T value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  }
+  void text(std::string_view value) {
+    number<std::uint64_t>(value.size());
+    bytes += value;
+  }
+};
+
+struct Reader {
+  std::string_view bytes;
+  template <class T>
+  [[nodiscard]] T number() {
+    T value{};
+    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+    return value;
+  }
+  [[nodiscard]] std::string text() { return std::string(take(number<std::uint64_t>())); }
+  [[nodiscard]] std::string_view take(std::uint64_t size) {
+    hmps::require(size <= bytes.size(), "the checkpoint ends too early");
+    const std::string_view part = bytes.substr(0, size);
+    bytes.remove_prefix(size);
+    return part;
+  }
+};
+
+}  // namespace
+
+void Checkpoint::save(const std::filesystem::path& path) const {
+  Writer out;
+  out.bytes = magic;
+  out.number(version);
+  out.number(byte_order);
+  out.number(time);
+  out.number(step);
+  out.number<std::uint64_t>(settings.size());
+  for (const auto& [name, value] : settings) {
+    out.text(name);
+    out.text(value);
+  }
+  out.number<std::uint64_t>(arrays_.size());
+  for (const Array& array : arrays_) {
+    out.text(array.name);
+    out.number(array.width);
+    out.text(array.bytes);
+  }
+  out.number(checksum(out.bytes));
+  examples::write_atomically(path, out.bytes);
+}
+
+std::optional<Checkpoint> Checkpoint::load(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::string bytes = examples::read_file(path);
+  const std::string remedy = "; remove it, or start anew without --resume";
+  hmps::require(bytes.starts_with(magic) && bytes.size() > magic.size() + 24, path.string(),
+                " is not a checkpoint of this program", remedy);
+  Reader in{std::string_view(bytes).substr(magic.size())};
+  const auto found = in.number<std::uint64_t>();
+  hmps::require(found == version, path.string(), " is a checkpoint of version ", found, ", this program reads version ",
+                version, remedy);
+  hmps::require(in.number<std::uint64_t>() == byte_order, path.string(),
+                " was written on a machine with another order of bytes", remedy);
+  const std::string_view body = std::string_view(bytes).substr(0, bytes.size() - 8);
+  std::uint64_t expected = 0;
+  std::memcpy(&expected, bytes.data() + body.size(), 8);
+  hmps::require(checksum(body) == expected, path.string(), " is damaged: its checksum does not match", remedy);
+
+  Checkpoint checkpoint;
+  checkpoint.time = in.number<double>();
+  checkpoint.step = in.number<std::uint64_t>();
+  for (auto count = in.number<std::uint64_t>(); count > 0; --count) {
+    std::string name = in.text();
+    checkpoint.settings.emplace_back(std::move(name), in.text());
+  }
+  for (auto count = in.number<std::uint64_t>(); count > 0; --count) {
+    Array array;
+    array.name = in.text();
+    array.width = in.number<std::uint64_t>();
+    array.bytes = in.text();
+    checkpoint.arrays_.push_back(std::move(array));
+  }
+  return checkpoint;
+}
+
+const Checkpoint::Array& Checkpoint::find(const std::string& name) const {
+  const auto found = std::find_if(arrays_.begin(), arrays_.end(), [&](const Array& a) { return a.name == name; });
+  hmps::require(found != arrays_.end(), "the checkpoint does not hold ", name,
+                "; it was written by another version of this program: start anew without --resume");
+  return *found;
+}
+
+void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
+                           const std::filesystem::path& path) {
+  const auto value_in = [](const RunSettings& list, const std::string& name) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+    return found == list.end() ? std::string("not set") : found->second;
+  };
+  const auto compare = [&](const std::string& name) {
+    const std::string then = value_in(checkpoint.settings, name), now = value_in(settings, name);
+    hmps::require(then == now, path.string(), " was written by a run with ", name, " ", then, ", but this one has ",
+                  now, "; resume with the same settings, or start anew without --resume");
+  };
+  for (const auto& entry : settings) compare(entry.first);
+  for (const auto& entry : checkpoint.settings) compare(entry.first);
+}
+
+}  // namespace swallowing

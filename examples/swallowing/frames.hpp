@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../common/vtu.hpp"
+
+namespace swallowing {
+
+/// The frames of a case for ParaView: `folder`/frames.pvd lists the files in `folder`/frames. The list
+/// is complete at any moment, so that a run can be watched while it goes on.
+class Frames {
+ public:
+  /// Begins the frames of a case, and removes those of an earlier run; or continues behind those up to
+  /// `resume_time`, the time of the checkpoint from which the run is resumed.
+  explicit Frames(const std::filesystem::path& folder, std::optional<double> resume_time = {}) : folder_(folder) {
+    namespace fs = std::filesystem;
+    if (resume_time && fs::exists(folder_ / "frames.pvd")) read(*resume_time);
+    fs::create_directories(folder_ / "frames");
+    for (const auto& entry : fs::directory_iterator(folder_ / "frames")) {
+      const std::string name = "frames/" + entry.path().filename().string();
+      const bool listed = std::any_of(frames_.begin(), frames_.end(), [&](const auto& f) { return f.second == name; });
+      if (!listed && name.starts_with("frames/frame_")) fs::remove(entry.path());
+    }
+    write_list();
+  }
+
+  /// Writes the particles at `time` in s: `positions` in m, and any fields.
+  void add(double time, const examples::Field& positions, std::span<const examples::Field> fields) {
+    char name[32];
+    std::snprintf(name, sizeof(name), "frames/frame_%05zu.vtu", frames_.size());
+    examples::write_atomically(folder_ / name, examples::vtu(positions, fields, time));
+    frames_.emplace_back(time, name);
+    write_list();
+  }
+  /// Time in s and file of every frame.
+  [[nodiscard]] const std::vector<std::pair<double, std::string>>& list() const { return frames_; }
+
+ private:
+  void write_list() const { examples::write_atomically(folder_ / "frames.pvd", examples::pvd(frames_)); }
+
+  /// Reads the list that `write_list` wrote.
+  void read(double resume_time) {
+    const std::string text = examples::read_file(folder_ / "frames.pvd");
+    const auto attribute = [&](const std::string& name, std::size_t from) {
+      const std::size_t begin = text.find(name + "=\"", from) + name.size() + 2;
+      return text.substr(begin, text.find('"', begin) - begin);
+    };
+    for (std::size_t at = text.find("<DataSet"); at != std::string::npos; at = text.find("<DataSet", at + 1)) {
+      const std::string time_text = attribute("timestep", at);
+      double time = 0;
+      std::from_chars(time_text.data(), time_text.data() + time_text.size(), time);
+      if (time <= resume_time + 5e-10) frames_.emplace_back(time, attribute("file", at));
+    }
+  }
+
+  std::filesystem::path folder_;
+  std::vector<std::pair<double, std::string>> frames_;
+};
+
+}  // namespace swallowing

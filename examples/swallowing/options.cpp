@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <thread>
+
+namespace swallowing {
+
+namespace {
+
+/// A finite number within [low, high], with a message that tells the unit.
+[[nodiscard]] CLI::Validator within(double low, double high, const std::string& what) {
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) return "'" + text + "' is not a number";
+        return value >= low && value <= high ? std::string() : what + " (" + text + " was given)";
+      },
+      "");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+                                     int& exit_code) {
+  Options options;
+  std::string chosen = "all", scalar = "double";
+  bool without_h = false, no_frames = false;
+  CLI::App app(
+      "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
+      "Table 1. Writes for each case a summary, a time series, pictures and frames for ParaView, and for all\n"
+      "of them the times of epiglottic downfolding beside the paper's Table 2.",
+      "swallowing");
+  app.get_formatter()->column_width(30);
+  const auto number = [](CLI::Option* option, const char* unit) { return option->type_name(unit); };
+
+  app.add_option("--case", chosen, "X1, X3, Y1, Y3 or all (default: all)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"X1", "X3", "Y1", "Y3", "all"}));
+  number(app.add_option("--spacing", options.spacing,
+                        "diameter l0 of the particles in m (default: 2.4e-3; paper: 1.2e-3)"),
+         "M")
+      ->check(within(0.4e-3, 5e-3, "the spacing is in metres and must lie between 0.4e-3 and 5e-3"));
+  number(app.add_option("--time-step", options.time_step,
+                        "time step in s, 0: from the estimate of the largest stable step (default: 0; paper: 1e-5)"),
+         "S")
+      ->check(within(0, 1e-3, "the time step is in seconds and must lie between 0 (automatic) and 1e-3"));
+  number(app.add_option("--until", options.until, "end of the simulated time in s (default: 2.05)"), "S")
+      ->check(within(1e-9, end_of_swallow,
+                     "the end is in seconds and must lie above 0 and at most at 2.05, where the "
+                     "swallow ends"));
+  number(app.add_option("--friction", options.friction, "friction coefficient instead of the cases' 0.1 and 0.3"), "MU")
+      ->check(within(0, 10, "the friction coefficient must lie between 0 and 10"));
+  app.add_option("--scalar", scalar, "float or double (default: double)")
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"float", "double"}));
+  app.add_option("--threads", options.threads, "number of threads (default: all cores); results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--out", options.out, "output folder (default: results)")->type_name("DIR");
+  app.add_flag("--resume", options.resume, "continue from the last checkpoints in the output folder, to the same bits");
+  app.add_flag("--no-frames", no_frames, "write no frames for ParaView");
+  number(app.add_option("--frame-interval", options.frame_interval, "time between frames in s (default: 0.01)"), "S")
+      ->check(within(1e-5, 10, "the time between frames is in seconds and must lie between 1e-5 and 10"));
+  app.add_option("--data", options.data, "folder with the motion tracks (default: those of the example)")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+
+  const std::string experiments = "Experiments";
+  auto* fixed = number(app.add_option("--penalty", options.penalty, "fixed penalty coefficient k in N/m4"), "K")
+                    ->check(within(1e-300, 1e300, "the penalty coefficient must be positive"))
+                    ->group(experiments);
+  number(app.add_option("--penalty-ratio", options.penalty_ratio,
+                        "spring ratio k~ of eq. 25, k = k~ rho / dt^2 (paper: 0.3)"),
+         "R")
+      ->check(within(1e-9, 1, "the spring ratio must lie above 0 and at most at 1"))
+      ->excludes(fixed)
+      ->group(experiments);
+  number(app.add_option("--lattice-shift", options.lattice_shift, "shift of the lattice along x and z in spacings"),
+         "P")
+      ->check(within(-1, 1, "the shift of the lattice must lie between -1 and 1 spacings"))
+      ->group(experiments);
+  app.add_flag("--without-H", without_h, "leave out region H, the pharyngeal constrictors")->group(experiments);
+
+  exit_code = 0;
+  try {
+    app.parse(argc, argv);
+    if (chosen != "all") options.cases = {chosen};
+    if (options.out.empty()) throw CLI::ValidationError("--out", "the output folder needs a name");
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) {
+      out << app.help();
+      return std::nullopt;
+    }
+    err << "swallowing: " << problem.what() << "\nTry swallowing --help.\n";
+    exit_code = 2;
+    return std::nullopt;
+  }
+  options.single_precision = scalar == "float";
+  options.constrictors = !without_h;
+  options.frames = !no_frames;
+  if (options.threads == 0) options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return options;
+}
+
+}  // namespace swallowing

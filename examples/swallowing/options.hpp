@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace swallowing {
+
+/// The end of the paper's swallow in s.
+inline constexpr double end_of_swallow = 2.05;
+
+/// What the command line asks for.
+struct Options {
+  std::vector<std::string> cases{"X1", "X3", "Y1", "Y3"};  ///< in the order in which they are run
+  double spacing = 2.4e-3;                                 ///< l0 in m
+  double time_step = 0;                                    ///< in s; 0: from the estimate of the largest stable step
+  double until = end_of_swallow;                           ///< in s
+  std::optional<double> friction;                          ///< overrules the friction coefficient of the cases
+  std::optional<double> penalty;                           ///< fixed k in N/m4, whatever the step
+  std::optional<double> penalty_ratio;                     ///< k~ of \paper{25}
+  bool single_precision = false;
+  int threads = 0;               ///< at least 1 after parsing: as given, or all cores
+  double lattice_shift = 0;      ///< of the particle lattice along x and z, in spacings
+  bool constrictors = true;      ///< false: region H is left out
+  bool frames = true;            ///< write frames for ParaView
+  double frame_interval = 0.01;  ///< in s
+  std::string out = "results";   ///< the output folder
+  std::string data;              ///< folder of the motion tracks; empty: those of the example
+  bool resume = false;
+};
+
+/// Reads the command line. Gives nothing when the program is to end at once with `exit_code`: 0 after
+/// --help, 2 after a mistake, which is explained on `err`.
+[[nodiscard]] std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out,
+                                                   std::ostream& err, int& exit_code);
+
+}  // namespace swallowing
