@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+# Eigen and nanoflann: targets that a parent project has already, else installed packages, else a
+# pinned download. The download is only unpacked, never configured, so that no option, test or
+# install rule of theirs gets into the user's build. HMPS_BUNDLED lists what was downloaded.
+set(HMPS_BUNDLED "")
+
+# hmps_dependency(<package> <target> <version> <folder of the headers in the archive> <url> <hash>)
+function(hmps_dependency package target version folder url hash)
+  if(TARGET ${target})
+    return()
+  endif()
+  find_package(${package} ${version} CONFIG QUIET)
+  if(TARGET ${target})
+    set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)  # seen by a parent project as well
+    message(STATUS "hmps: ${package} ${${package}_VERSION} found in ${${package}_DIR}")
+    return()
+  endif()
+
+  message(STATUS "hmps: ${package} not found, taking it from ${url}")
+  include(FetchContent)
+  if(POLICY CMP0135)
+    cmake_policy(SET CMP0135 NEW)
+  endif()
+  # There is no such sub-folder: MakeAvailable unpacks, and finds nothing to add.
+  FetchContent_Declare(hmps_${package} URL ${url} URL_HASH SHA256=${hash} SOURCE_SUBDIR hmps-unpack-only)
+  FetchContent_MakeAvailable(hmps_${package})
+  string(TOLOWER hmps_${package} content)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} INTERFACE ${${content}_SOURCE_DIR}/${folder})
+  set(HMPS_BUNDLED ${HMPS_BUNDLED} ${package} PARENT_SCOPE)
+  set(HMPS_${package}_HEADERS ${${content}_SOURCE_DIR}/${folder} PARENT_SCOPE)
+endfunction()
+
+hmps_dependency(
+  Eigen3 Eigen3::Eigen 3.4 "."
+  https://gitlab.com/libeigen/eigen/-/archive/3.4.0/eigen-3.4.0.tar.gz
+  8586084f71f9bde545ee7fa6d00288b264a2b7ac3607b974e54d13e7162c1c72)
+hmps_dependency(
+  nanoflann nanoflann::nanoflann 1.4 "include"
+  https://github.com/jlblancoc/nanoflann/archive/refs/tags/v1.4.3.tar.gz
+  cbcecf22bec528a8673a113ee9b0e134f91f1f96be57e913fa1f74e98e4449fa)

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+# What our own tests, examples and benchmarks are compiled with. Only they link these targets.
+
+add_library(hmps_development INTERFACE)
+target_link_libraries(hmps_development INTERFACE hmps::hmps)
+target_compile_options(
+  hmps_development
+  INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${HMPS_WARNINGS_AS_ERRORS}>:-Werror>)
+if(HMPS_SANITIZE)
+  target_compile_options(
+    hmps_development INTERFACE -fsanitize=${HMPS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(hmps_development INTERFACE -fsanitize=${HMPS_SANITIZE})
+endif()
+
+# The instruction set of this machine, for the programs whose speed matters.
+add_library(hmps_native INTERFACE)
+target_compile_options(hmps_native INTERFACE $<$<BOOL:${HMPS_NATIVE}>:-march=native>)
+
+# The executors that this machine can run: hmps_openmp and hmps_onetbb exist where the library is found.
+set(HMPS_EXECUTORS "")
+find_package(OpenMP QUIET COMPONENTS CXX)
+if(OpenMP_CXX_FOUND)
+  add_library(hmps_openmp INTERFACE)
+  target_link_libraries(hmps_openmp INTERFACE OpenMP::OpenMP_CXX)
+  list(APPEND HMPS_EXECUTORS openmp)
+endif()
+find_package(TBB CONFIG QUIET)
+if(TARGET TBB::tbb)
+  add_library(hmps_onetbb INTERFACE)
+  target_link_libraries(hmps_onetbb INTERFACE TBB::tbb)
+  list(APPEND HMPS_EXECUTORS onetbb)
+endif()
+message(STATUS "hmps: executors to be tested: serial ${HMPS_EXECUTORS}")
+list(TRANSFORM HMPS_EXECUTORS PREPEND hmps_ OUTPUT_VARIABLE HMPS_EXECUTOR_TARGETS)

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# Fails unless INCLUDE/hmps/hmps.hpp includes every header beside it once, except those of executors/.
+set(umbrella ${INCLUDE}/hmps/hmps.hpp)
+if(NOT EXISTS ${umbrella})
+  message(FATAL_ERROR "${umbrella} is missing")
+endif()
+file(GLOB_RECURSE headers RELATIVE ${INCLUDE} ${INCLUDE}/hmps/*.hpp)
+list(REMOVE_ITEM headers hmps/hmps.hpp)
+list(FILTER headers EXCLUDE REGEX "^hmps/executors/")
+
+file(STRINGS ${umbrella} lines REGEX "^#include")
+set(included "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "^#include [\"<](.*)[\">].*$" "\\1" header ${line})
+  list(APPEND included ${header})
+endforeach()
+
+set(missing ${headers})
+list(REMOVE_ITEM missing ${included})
+set(extra ${included})
+list(REMOVE_ITEM extra ${headers})
+if(missing OR extra)
+  message(FATAL_ERROR "hmps.hpp does not include: ${missing}\nhmps.hpp must not include: ${extra}")
+endif()
+list(LENGTH headers count)
+message(STATUS "hmps.hpp includes all ${count} headers")

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# The same program for every way to get the package, and what the package must not do to its user.
+add_executable(consumer ${PROGRAM}/main.cpp ${PROGRAM}/second.cpp)
+target_link_libraries(consumer PRIVATE hmps::hmps)
+
+foreach(property IN ITEMS INTERFACE_COMPILE_OPTIONS INTERFACE_COMPILE_DEFINITIONS INTERFACE_LINK_OPTIONS
+                          INTERFACE_PRECOMPILE_HEADERS INTERFACE_SOURCES)
+  get_target_property(value hmps::hmps ${property})
+  if(value)
+    message(FATAL_ERROR "hmps::hmps leaks ${property}: ${value}")
+  endif()
+endforeach()
+get_target_property(features hmps::hmps INTERFACE_COMPILE_FEATURES)
+if(NOT features STREQUAL "cxx_std_20")
+  message(FATAL_ERROR "hmps::hmps asks for ${features}")
+endif()
+get_target_property(libraries hmps::hmps INTERFACE_LINK_LIBRARIES)
+if(NOT libraries STREQUAL "Eigen3::Eigen;nanoflann::nanoflann")
+  message(FATAL_ERROR "hmps::hmps links ${libraries}")
+endif()
+foreach(ours IN ITEMS hmps_development headers_alone docs)
+  if(TARGET ${ours})
+    message(FATAL_ERROR "the target ${ours} is of no use to who uses the package")
+  endif()
+endforeach()
