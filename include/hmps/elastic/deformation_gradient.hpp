@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/force/terms.hpp"
+
+namespace hmps {
+
+namespace detail {
+
+/// Brings `view` of the particles of `block` into `slots`, in the scalar type of the kernels.
+/// `value(number, slot, component)` is what is kept of each number.
+template <class K, int D, class T, class Value>
+HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view,
+                       SlotArrays<K>& slots, Value&& value) {
+  constexpr std::size_t width = Blocks<K, D>::width;
+  const std::size_t first = block * width;
+  const bool consecutive = blocks.consecutive(block);
+  for (int c = 0; c < D; ++c) {
+    K* target = slots[static_cast<std::size_t>(c)] + first;
+    if (consecutive && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
+      const T* source = view.base(c) + blocks.particle(first);
+      for (std::size_t l = 0; l < width; ++l) target[l] = value(source[l], first + l, c);
+    } else if (consecutive) {
+      const std::size_t i = blocks.particle(first);
+      for (std::size_t l = 0; l < width; ++l) target[l] = value(view(i + l, c), first + l, c);
+    } else {
+      for (std::size_t l = 0; l < width; ++l) {
+        const Index i = blocks.particle(first + l);
+        if (i != Blocks<K, D>::none) target[l] = value(view(i, c), first + l, c);
+      }
+    }
+  }
+}
+template <class K, int D, class T>
+HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view,
+                       SlotArrays<K>& slots) {
+  stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
+}
+
+/// Displacements from the reference configuration, taken in double precision before they are
+/// rounded to that of the kernels: what a bond needs of a position is lost in the position's
+/// leading digits.
+template <class K, int D, class T>
+HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& x,
+                                    SlotArrays<K>& slots) {
+  stage(blocks, block, x, slots, [&](T number, std::size_t slot, int c) {
+    return static_cast<K>(static_cast<double>(number) - blocks.reference_slots(c)[slot]);
+  });
+}
+
+/// Hands the vectors of the particles of `block` out to the user's `view`.
+template <class K, int D, class T>
+HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const Vector<Lanes<K>, D>& lanes,
+                         const VectorView<T, D>& view) {
+  constexpr std::size_t width = Blocks<K, D>::width;
+  const std::size_t first = block * width;
+  const bool consecutive = blocks.consecutive(block);
+  for (int c = 0; c < D; ++c) {
+    if (consecutive && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
+      T* target = view.base(c) + blocks.particle(first);
+      for (std::size_t l = 0; l < width; ++l) target[l] = static_cast<T>(lanes[c].lane[l]);
+    } else {
+      for (std::size_t l = 0; l < width; ++l) {
+        const Index i = blocks.particle(first + l);
+        if (i != Blocks<K, D>::none) view(i, c) = static_cast<T>(lanes[c].lane[l]);
+      }
+    }
+  }
+}
+
+/// The deformation gradient F of the particles of one block by \paper{11}, the minimiser of the
+/// error functional of \paper{9} as \paper{10} asks. Written in displacements u = x - x0, in which it
+/// reads F = 1 + [sum (u_j - u_i) (x) r0 w] A^-1.
+template <Bonds B, class K = typename B::Scalar, int D = B::dimension>
+[[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> deformation_gradient_lanes(const B& bonds, std::size_t block,
+                                                                         const SlotArrays<K>& displacement,
+                                                                         const Matrix<Lanes<K>, D>& shape_inverse) {
+  using T = Lanes<K>;
+  const std::size_t slot = block * B::width;
+  Vector<T, D> u;
+  Matrix<T, D> sum;
+  for (int d = 0; d < D; ++d) u[d] = load(displacement[static_cast<std::size_t>(d)] + slot);
+  for (int k = 0; k < D * D; ++k) sum(k % D, k / D) = T(0);
+  bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+    const T w = bond.weight();
+    for (int row = 0; row < D; ++row) {
+      const T relative = w * (bond.gather(displacement[static_cast<std::size_t>(row)]) - u[row]);
+      for (int col = 0; col < D; ++col) sum(row, col) += relative * bond.offset(col);
+    }
+  });
+  Matrix<T, D> F = product(sum, shape_inverse);
+  for (int d = 0; d < D; ++d) F(d, d) += T(1);
+  return F;
+}
+
+}  // namespace detail
+
+/// A term of `internal_force` that adds no force but writes the deformation gradient of every
+/// particle into the user's array as the first sweep passes, for contact and diagnostics.
+template <class T, int D>
+struct Record {
+  MatrixView<T, D> target;
+
+  template <class K>
+  HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>&) const {
+    for (int l = 0; l < Lanes<K>::width; ++l) {
+      const Index i = particles.particle(l);
+      if (i == Blocks<K, D>::none) continue;
+      for (int k = 0; k < D * D; ++k)
+        target(i, k) = static_cast<T>(particles.deformation_gradient(k % D, k / D).lane[l]);
+    }
+  }
+};
+
+/// Records deformation gradients into `target`, one per particle of the bonds.
+template <class T, int D>
+[[nodiscard]] Record<T, D> record(const MatrixView<T, D>& target) {
+  return {target};
+}
+
+/// The estimator alone: writes F (\paper{11}) of every particle at positions `x` (m) into `F`. Throws
+/// `InputError` for views of the wrong size.
+template <Bonds B, class X, class T, int D = B::dimension, Executor E = Serial>
+void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const MatrixView<T, D>& F, const E& execute = {}) {
+  require_size(x, bonds.size(), "positions");
+  require_size(F, bonds.size(), "deformation gradients");
+  using K = typename B::Scalar;
+  SlotArrays<K> displacement(D, bonds.slot_count());
+  execute(bonds.block_count(), [&](std::size_t block) { detail::stage_displacement(bonds, block, x, displacement); });
+  execute(bonds.block_count(), [&](std::size_t block) {
+    const auto inverse = bonds.shape_inverse_lanes(block);
+    const auto gradient = detail::deformation_gradient_lanes(bonds, block, displacement, inverse);
+    Coupling<K, D> unused;
+    Record<T, D>{F}.couple(BlockOfParticles<K, D>(bonds, block, gradient, inverse), unused);
+  });
+}
+
+}  // namespace hmps

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/elastic/deformation_gradient.hpp"
+#include "hmps/force/terms.hpp"
+
+namespace hmps {
+
+/// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the
+/// deformation gradient and what follows from it, one for the sum in `Coupling`. A term that is not
+/// named is not computed; where no term couples, the first sweep is left out, where none damps, no
+/// velocity is read.
+///
+/// Keeps a reference to the bonds, which must outlive it, and scratch memory, but no state: one
+/// object serves any number of states in turn (not at the same time).
+template <Bonds B, class... Terms>
+class InternalForce {
+ public:
+  using Scalar = typename B::Scalar;
+  static constexpr int dimension = B::dimension;
+
+ private:
+  using K = Scalar;
+  static constexpr int D = dimension;
+  using T = Lanes<K>;
+  static_assert((ForceTerm<Terms, K, D> && ...),
+                "hmps: a term of internal_force needs couple(particles, coupling) or damping(bonds); see ForceTerm");
+  static constexpr bool couples = (CouplingTerm<Terms, K, D> || ...);
+  static constexpr bool damps = (DampingTerm<Terms, K, D> || ...);
+
+ public:
+  explicit InternalForce(const B& bonds, Terms... terms)
+      : bonds_(&bonds),
+        terms_(std::move(terms)...),
+        displacement_(D, bonds.slot_count()),
+        velocity_(damps ? D : 0, bonds.slot_count()),
+        coupling_(couples ? D * D + 1 : 0, bonds.slot_count()) {
+    if constexpr (damps) {
+      double sum = 0;
+      std::apply([&](const auto&... term) { (add_damping(term, sum), ...); }, terms_);
+      damping_ = static_cast<K>(sum);
+    }
+  }
+
+  /// Writes the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s)
+  /// into `f`. Throws `InputError` for views of the wrong size; does not look at values.
+  template <class X, class V, class F, Executor E = Serial>
+  void operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
+                  const E& execute = {}) {
+    require_size(x, bonds_->size(), "positions");
+    require_size(v, bonds_->size(), "velocities");
+    require_size(f, bonds_->size(), "forces");
+    execute(bonds_->block_count(), [&](std::size_t block) {
+      detail::stage_displacement(*bonds_, block, x, displacement_);
+      if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
+    });
+    if constexpr (couples) execute(bonds_->block_count(), [&](std::size_t block) { couple(block); });
+    execute(bonds_->block_count(), [&](std::size_t block) { sum(block, f); });
+  }
+
+  /// The same for terms that do not read velocities.
+  template <class X, class F, Executor E = Serial>
+  requires(!damps) void operator()(const VectorView<X, D>& x, const VectorView<F, D>& f, const E& execute = {}) {
+    (*this)(x, x, f, execute);
+  }
+
+  [[nodiscard]] const B& bonds() const { return *bonds_; }
+  /// Bytes of scratch memory.
+  [[nodiscard]] std::size_t bytes() const { return displacement_.bytes() + velocity_.bytes() + coupling_.bytes(); }
+
+ private:
+  template <class Term>
+  void add_damping(const Term& term, double& sum) const {
+    if constexpr (DampingTerm<Term, K, D>) sum += term.damping(*bonds_);
+  }
+  template <class Term>
+  HMPS_INLINE static void add_coupling(const Term& term, const BlockOfParticles<K, D>& particles,
+                                       Coupling<K, D>& coupling) {
+    if constexpr (CouplingTerm<Term, K, D>) term.couple(particles, coupling);
+  }
+
+  /// First sweep: what the particles of `block` carry to their bonds.
+  void couple(std::size_t block) {
+    const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block);
+    const Matrix<T, D> F = detail::deformation_gradient_lanes(*bonds_, block, displacement_, inverse);
+    const BlockOfParticles<K, D> particles(*bonds_, block, F, inverse);
+    Coupling<K, D> coupling;
+    for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) = T(0);
+    coupling.c = T(0);
+    std::apply([&](const auto&... term) { (add_coupling(term, particles, coupling), ...); }, terms_);
+    // The second sweep works on displacements: c r_ij = c r0_ij + c (u_j - u_i).
+    for (int d = 0; d < D; ++d) coupling.M(d, d) += coupling.c;
+    const std::size_t slot = block * B::width;
+    for (int k = 0; k < D * D; ++k) store(coupling_[static_cast<std::size_t>(k)] + slot, coupling.M(k % D, k / D));
+    store(coupling_[D * D] + slot, coupling.c);
+  }
+
+  /// Second sweep: the sum in `Coupling` over the bonds of the particles of `block`.
+  template <class F>
+  void sum(std::size_t block, const VectorView<F, D>& f) const {
+    const std::size_t slot = block * B::width;
+    Vector<T, D> force, u, v, drag;
+    T c(0);
+    for (int d = 0; d < D; ++d) force[d] = drag[d] = T(0);
+    if constexpr (couples) {
+      for (int col = 0; col < D; ++col) {
+        const T asymmetry = bonds_->asymmetry_lanes(block, col);
+        for (int row = 0; row < D; ++row)
+          force[row] += load(coupling_[static_cast<std::size_t>(row + D * col)] + slot) * asymmetry;
+      }
+      c = load(coupling_[D * D] + slot);
+      for (int d = 0; d < D; ++d) u[d] = load(displacement_[static_cast<std::size_t>(d)] + slot);
+    }
+    if constexpr (damps)
+      for (int d = 0; d < D; ++d) v[d] = load(velocity_[static_cast<std::size_t>(d)] + slot);
+
+    bonds_->for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+      const T w = bond.weight();
+      if constexpr (couples) {
+        const T stretch = c + bond.gather(coupling_[D * D]);
+        for (int row = 0; row < D; ++row) {
+          T pull = stretch * (bond.gather(displacement_[static_cast<std::size_t>(row)]) - u[row]);
+          for (int col = 0; col < D; ++col)
+            pull += bond.gather(coupling_[static_cast<std::size_t>(row + D * col)]) * bond.offset(col);
+          force[row] += w * pull;
+        }
+      }
+      if constexpr (damps)
+        for (int d = 0; d < D; ++d) drag[d] += w * (bond.gather(velocity_[static_cast<std::size_t>(d)]) - v[d]);
+    });
+    if constexpr (damps)
+      for (int d = 0; d < D; ++d) force[d] += damping_ * drag[d];
+    detail::deliver(*bonds_, block, force, f);
+  }
+
+  const B* bonds_;
+  std::tuple<Terms...> terms_;
+  SlotArrays<K> displacement_, velocity_, coupling_;
+  K damping_ = 0;
+};
+
+/// The internal force of the body held together by `bonds`, made of `terms`:
+/// `internal_force(bonds, elastic(law), artificial(E_hat), viscous(rho, nu))`.
+template <Bonds B, class... Terms>
+[[nodiscard]] InternalForce<B, Terms...> internal_force(const B& bonds, Terms... terms) {
+  return InternalForce<B, Terms...>(bonds, std::move(terms)...);
+}
+/// The bonds are referred to, not copied: they must outlive the force.
+template <Bonds B, class... Terms>
+void internal_force(const B&& bonds, Terms... terms) = delete;
+
+}  // namespace hmps

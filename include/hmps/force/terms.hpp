@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+
+#include "hmps/core/lanes.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/neighbours/blocks.hpp"
+
+namespace hmps {
+
+/// One block of particles as a term sees it, a particle in each lane.
+template <class K, int D>
+class BlockOfParticles {
+ public:
+  using T = Lanes<K>;
+
+  BlockOfParticles(const Blocks<K, D>& blocks, std::size_t block, const Matrix<T, D>& gradient,
+                   const Matrix<T, D>& inverse)
+      : deformation_gradient(gradient), shape_inverse(inverse), blocks_(blocks), block_(block) {}
+
+  const Matrix<T, D>& deformation_gradient;  ///< F_i, \paper{11}.
+  const Matrix<T, D>& shape_inverse;         ///< A_i^-1 in 1/m2, \paper{12}.
+
+  /// 1 / sum |r0|^2 w in 1/m2, the denominator of \paper{20}.
+  [[nodiscard]] HMPS_INLINE T inverse_shape_trace() const { return blocks_.inverse_trace_lanes(block_); }
+
+  /// The particle in `lane`, or `Blocks::none` behind the last one.
+  [[nodiscard]] HMPS_INLINE Index particle(int lane) const {
+    return blocks_.particle(block_ * Blocks<K, D>::width + static_cast<std::size_t>(lane));
+  }
+
+  /// A parameter of each particle, from the user's array of one number per particle.
+  template <class P>
+  [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& parameter) const {
+    return gather([&](Index i) { return parameter[i]; });
+  }
+  /// A parameter of each particle's body: `table[body[i]]`.
+  template <class P, class B>
+  [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
+    return gather([&](Index i) { return table[static_cast<std::size_t>(body[i])]; });
+  }
+
+ private:
+  template <class Value>
+  [[nodiscard]] HMPS_INLINE T gather(Value&& value) const {
+    T result;
+    for (int l = 0; l < T::width; ++l) {
+      const Index i = particle(l);
+      // Empty lanes take the first particle's parameters, with which nothing can go wrong.
+      result.lane[l] = static_cast<K>(value(i == Blocks<K, D>::none ? particle(0) : i));
+    }
+    return result;
+  }
+
+  const Blocks<K, D>& blocks_;
+  std::size_t block_;
+};
+
+/// What a particle carries to each of its bonds. With M, c of both ends and d of the whole body,
+/// every internal force of the paper is one sum (force density in N/m3):
+///
+///     f_i = sum_j w_ij [ (M_i + M_j) r0_ij + (c_i + c_j) r_ij + d (v_j - v_i) ]
+///
+/// It is antisymmetric in i and j, so that the forces sum to zero whatever the terms put in.
+template <class K, int D>
+struct Coupling {
+  Matrix<Lanes<K>, D> M;  ///< Acts on the reference position of the neighbour, in Pa/m2.
+  Lanes<K> c;             ///< Acts on the current position of the neighbour, in Pa/m2.
+};
+
+/// A term of the internal force. Valid expressions, of which a term has one or both:
+///
+/// | expression | meaning |
+/// |---|---|
+/// | `term.couple(particles, coupling)` | adds to `coupling.M` and `coupling.c` of a `BlockOfParticles` |
+/// | `term.damping(bonds)` | d of the whole body, in Pa s/m2 |
+///
+/// Satisfied by `Elastic`, `Artificial`, `Viscous`, `Record`, and a user's own struct.
+template <class Term, class K, int D>
+concept CouplingTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
+  term.couple(particles, coupling);
+};
+template <class Term, class K, int D>
+concept DampingTerm = requires(const Term& term, const Blocks<K, D>& blocks) {
+  { term.damping(blocks) } -> std::convertible_to<double>;
+};
+template <class Term, class K, int D>
+concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D>;
+
+/// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows
+/// with `row.gather(values)` (a value of the neighbour in each lane), `row.offset(c)` (component c of
+/// r0) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and
+/// `LatticeBonds`.
+template <class B>
+concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> && requires(const B& bonds) {
+  bonds.for_each_row(std::size_t{0}, [](const auto&) {});
+};
+
+}  // namespace hmps

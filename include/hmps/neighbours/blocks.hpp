@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/lanes.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/neighbours/shape_tensor.hpp"
+
+namespace hmps {
+
+/// One array per component with one number per slot, in the scalar type of the kernels. `margin`
+/// slots before the first and behind the last may be read, so that a run of lanes that hangs over
+/// either end needs no test.
+template <class K>
+class SlotArrays {
+ public:
+  SlotArrays() = default;
+  SlotArrays(std::size_t components, std::size_t slots) : pitch_(pitch(slots)), values_(components * pitch_, K(0)) {}
+
+  [[nodiscard]] K* operator[](std::size_t component) { return values_.data() + component * pitch_ + margin; }
+  [[nodiscard]] const K* operator[](std::size_t component) const {
+    return values_.data() + component * pitch_ + margin;
+  }
+  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(K); }
+
+ private:
+  static constexpr std::size_t margin = static_cast<std::size_t>(Lanes<K>::width);
+  /// An odd number of cache lines, so that equal slots of several components do not compete for the
+  /// same set of a cache.
+  static constexpr std::size_t pitch(std::size_t slots) {
+    const std::size_t lines = (slots + 2 * margin + margin - 1) / margin;
+    return (lines | 1) * margin;
+  }
+  std::size_t pitch_ = 0;
+  std::vector<K> values_;
+};
+
+/// The particles in the order in which the sweeps visit them: `block()` of them at a time, each in
+/// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
+/// slots. Holds what both models of bonds share: the reference configuration (\paper{12}).
+template <class K, int D>
+class Blocks {
+ public:
+  using Scalar = K;
+  static constexpr int dimension = D;
+  static constexpr std::size_t width = static_cast<std::size_t>(Lanes<K>::width);
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  /// Number of particles.
+  [[nodiscard]] std::size_t size() const { return slot_of_.size(); }
+  [[nodiscard]] std::size_t block_count() const { return particle_of_.size() / width; }
+  [[nodiscard]] std::size_t slot_count() const { return particle_of_.size(); }
+  /// The particle in `slot`, or `none`.
+  [[nodiscard]] Index particle(std::size_t slot) const { return particle_of_[slot]; }
+  [[nodiscard]] std::size_t slot(std::size_t particle) const { return slot_of_[particle]; }
+
+  /// Component `c` of the reference position of `particle`, in m.
+  [[nodiscard]] double reference(std::size_t particle, int c) const {
+    return reference_[static_cast<std::size_t>(c)][slot_of_[particle]];
+  }
+  /// The reference position of `particle`, in m.
+  [[nodiscard]] Vector<double, D> reference(std::size_t particle) const {
+    Vector<double, D> x;
+    for (int c = 0; c < D; ++c) x[c] = reference(particle, c);
+    return x;
+  }
+  /// A^-1 of `particle`, in 1/m2 (\paper{12}).
+  [[nodiscard]] Matrix<K, D> shape_inverse(std::size_t particle) const {
+    Matrix<K, D> inverse;
+    for (int r = 0; r < D; ++r)
+      for (int c = 0; c < D; ++c) inverse(r, c) = shape_[symmetric(r, c)][slot_of_[particle]];
+    return inverse;
+  }
+  /// tr A = sum |r0|^2 w of `particle`, in m2, the sum in \paper{20}.
+  [[nodiscard]] K shape_trace(std::size_t particle) const { return K(1) / inverse_trace_[0][slot_of_[particle]]; }
+
+  /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}).
+  [[nodiscard]] double standard_density() const { return standard_density_; }
+  [[nodiscard]] double standard_lambda() const { return standard_lambda_; }
+
+  /// Bytes that the reference configuration takes, without the bonds themselves.
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = particle_of_.size() * sizeof(Index) + slot_of_.size() * sizeof(Index) + consecutive_.size();
+    for (const auto& component : reference_) sum += component.size() * sizeof(double);
+    return sum + shape_.bytes() + asymmetry_.bytes() + inverse_trace_.bytes();
+  }
+
+  // What follows is read by the sweeps, lane by lane.
+
+  [[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> shape_inverse_lanes(std::size_t block) const {
+    Matrix<Lanes<K>, D> inverse;
+    for (int c = 0; c < D; ++c)
+      for (int r = 0; r <= c; ++r) {
+        inverse(r, c) = load(shape_[symmetric(r, c)] + block * width);
+        inverse(c, r) = inverse(r, c);
+      }
+    return inverse;
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> inverse_trace_lanes(std::size_t block) const {
+    return load(inverse_trace_[0] + block * width);
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> asymmetry_lanes(std::size_t block, int c) const {
+    return load(asymmetry_[static_cast<std::size_t>(c)] + block * width);
+  }
+  /// Whether the lanes of `block` hold particles that follow each other in the user's arrays.
+  [[nodiscard]] HMPS_INLINE bool consecutive(std::size_t block) const { return consecutive_[block] != 0; }
+  [[nodiscard]] HMPS_INLINE const double* reference_slots(int c) const {
+    return reference_[static_cast<std::size_t>(c)].data();
+  }
+
+ protected:
+  /// Slots in the order of `order`, which holds every particle once.
+  template <class T>
+  Blocks(const VectorView<T, D>& reference, const std::vector<Index>& order)
+      : particle_of_((order.size() + width - 1) / width * width, none), slot_of_(order.size()) {
+    std::copy(order.begin(), order.end(), particle_of_.begin());
+    for (std::size_t s = 0; s < order.size(); ++s) slot_of_[order[s]] = static_cast<Index>(s);
+    for (int c = 0; c < D; ++c) {
+      auto& component = reference_[static_cast<std::size_t>(c)];
+      component.assign(slot_count(), 0.0);
+      for (std::size_t s = 0; s < order.size(); ++s) component[s] = static_cast<double>(reference(order[s], c));
+    }
+    consecutive_.resize(block_count());
+    for (std::size_t b = 0; b < block_count(); ++b) {
+      bool run = true;
+      for (std::size_t l = 1; l < width; ++l)
+        run = run && particle_of_[b * width + l] != none && particle_of_[b * width + l] == particle_of_[b * width] + l;
+      consecutive_[b] = run ? 1 : 0;
+    }
+    shape_ = SlotArrays<K>(D * (D + 1) / 2, slot_count());
+    asymmetry_ = SlotArrays<K>(D, slot_count());
+    inverse_trace_ = SlotArrays<K>(1, slot_count());
+  }
+
+  /// Keeps what the sweeps need of the neighbourhood of `particle`. Throws `InputError` if it does
+  /// not span space.
+  void keep_shape(std::size_t particle, const ShapeTensor<D>& shape) {
+    const std::size_t slot = slot_of_[particle];
+    const Matrix<double, D> inverse = shape.inverse(particle);
+    for (int c = 0; c < D; ++c) {
+      asymmetry_[static_cast<std::size_t>(c)][slot] = static_cast<K>(shape.asymmetry[c]);
+      for (int r = 0; r <= c; ++r) shape_[symmetric(r, c)][slot] = static_cast<K>(inverse(r, c));
+    }
+    inverse_trace_[0][slot] = static_cast<K>(1.0 / shape.A.trace());
+  }
+  void keep_standard(const ShapeTensor<D>& shape) {
+    standard_density_ = shape.weight;
+    standard_lambda_ = shape.A.trace() / shape.weight;
+  }
+
+ private:
+  [[nodiscard]] static constexpr std::size_t symmetric(int r, int c) {
+    return static_cast<std::size_t>(r < c ? r + c * (c + 1) / 2 : c + r * (r + 1) / 2);
+  }
+
+  std::vector<Index> particle_of_;
+  std::vector<Index> slot_of_;
+  std::vector<std::uint8_t> consecutive_;
+  std::array<std::vector<double>, D> reference_;
+  SlotArrays<K> shape_, asymmetry_, inverse_trace_;
+  double standard_density_ = 0;
+  double standard_lambda_ = 0;
+};
+
+}  // namespace hmps

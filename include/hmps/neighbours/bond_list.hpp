@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "hmps/neighbours/blocks.hpp"
+#include "hmps/neighbours/fixed_radius.hpp"
+#include "hmps/neighbours/weight.hpp"
+
+namespace hmps {
+
+/// Bonds every pair: the predicate of a body that is not cut.
+struct EveryBond {
+  constexpr bool operator()(std::size_t, std::size_t) const { return true; }
+};
+
+/// How the bonds of a cloud of particles are made.
+struct BondSettings {
+  double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
+  double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
+};
+
+namespace detail {
+inline void validate(const BondSettings& settings) {
+  require(settings.spacing > 0 && std::isfinite(settings.spacing), "hmps: the particle spacing is ", settings.spacing,
+          " m; it must be positive");
+  require(settings.radius_ratio > 0 && std::isfinite(settings.radius_ratio),
+          "hmps: the effective radius over the spacing is ", settings.radius_ratio,
+          "; it must be positive (the paper has 1.75)");
+}
+}  // namespace detail
+
+/// The bonds of any cloud of particles in its reference configuration: r0, w0 (\paper{8}) and A^-1
+/// (\paper{12}), a list for each particle. `K` is the scalar type in which forces are evaluated,
+/// whatever that of the user's state. Satisfies the `Bonds` concept, as `LatticeBonds` does, which
+/// takes a tenth of the memory where particles lie on a lattice.
+template <class K, int D>
+class BondList : public Blocks<K, D> {
+  using Base = Blocks<K, D>;
+
+ public:
+  using Base::width;
+
+  /// Bonds all pairs of `reference` (m) no further apart than the effective radius for which
+  /// `bonded(i, j)` holds, which must not depend on the order of i and j. Throws `InputError` for
+  /// coincident particles, positions that are not finite and neighbourhoods that do not span space.
+  template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
+  explicit BondList(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
+                    Weight&& weight = {})
+      : Base(reference, natural_order(reference.size())) {
+    detail::validate(settings);
+    const double radius = settings.spacing * settings.radius_ratio;
+    using S = typename VectorView<T, D>::Scalar;
+    // Rounding in the user's scalar must not decide whether a lattice neighbour is one.
+    const auto reach = static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())));
+    NeighbourList list = find_neighbours(reference, reach);
+    first_row_.push_back(0);
+    ShapeTensor<D> fullest;
+    for (std::size_t block = 0; block < this->block_count(); ++block) {
+      const std::size_t start = rows_.size();
+      for (std::size_t l = 0; l < width; ++l) {
+        const std::size_t i = block * width + l;
+        if (i >= this->size()) break;
+        ShapeTensor<D> shape;
+        std::size_t row = start;
+        for (Index j : list[i]) {
+          if (!bonded(i, static_cast<std::size_t>(j))) continue;
+          const Vector<double, D> r0 = this->reference(j) - this->reference(i);
+          const double w = weight(std::min(r0.norm(), radius), radius);
+          if (!(w > 0)) continue;
+          if (row == rows_.size()) rows_.push_back(Row(block * width));
+          for (int c = 0; c < D; ++c) rows_[row].r0[c][l] = static_cast<K>(r0[c]);
+          rows_[row].w[l] = static_cast<K>(w);
+          rows_[row].neighbour[l] = j;
+          ++row;
+          shape.add(r0, w);
+        }
+        this->keep_shape(i, shape);
+        if (shape.weight > fullest.weight) fullest = shape;
+      }
+      first_row_.push_back(rows_.size());
+    }
+    if (this->size() > 0) this->keep_standard(fullest);
+  }
+
+  /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
+  /// to `i` (m) and weight.
+  template <class Visit>
+  void for_each_bond(std::size_t i, Visit&& visit) const {
+    const std::size_t l = i % width;
+    for (std::size_t row = first_row_[i / width]; row < first_row_[i / width + 1]; ++row) {
+      const Row& bond = rows_[row];
+      if (!(bond.w[l] > 0)) continue;
+      Vector<K, D> r0;
+      for (int c = 0; c < D; ++c) r0[c] = bond.r0[c][l];
+      visit(bond.neighbour[l], r0, bond.w[l]);
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return Base::bytes() + rows_.size() * sizeof(Row) + first_row_.size() * sizeof(std::size_t);
+  }
+
+  /// One bond of every lane of a block, as the sweeps see it.
+  struct Row {
+    alignas(64) K r0[D][width]{};
+    alignas(64) K w[width]{};
+    Index neighbour[width];
+
+    /// No bond in any lane yet: weight zero towards the particle itself.
+    explicit Row(std::size_t first_slot) {
+      for (std::size_t l = 0; l < width; ++l) neighbour[l] = static_cast<Index>(first_slot + l);
+    }
+    [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const {
+      Lanes<K> result;
+      for (std::size_t l = 0; l < width; ++l) result.lane[l] = values[neighbour[l]];
+      return result;
+    }
+    [[nodiscard]] HMPS_INLINE Lanes<K> offset(int c) const { return load(r0[c]); }
+    [[nodiscard]] HMPS_INLINE Lanes<K> weight() const { return load(w); }
+  };
+
+  /// Calls `visit(row)` for each row of bonds of `block`.
+  template <class Visit>
+  HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
+    for (std::size_t row = first_row_[block]; row < first_row_[block + 1]; ++row) visit(rows_[row]);
+  }
+
+ private:
+  [[nodiscard]] static std::vector<Index> natural_order(std::size_t size) {
+    std::vector<Index> order(size);
+    std::iota(order.begin(), order.end(), Index{0});
+    return order;
+  }
+
+  std::vector<Row> rows_;
+  std::vector<std::size_t> first_row_;
+};
+
+}  // namespace hmps

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <nanoflann.hpp>
+#include <span>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+/// The neighbours of every particle in one array: those of particle `i`, sorted by index, are
+/// `neighbour[offset[i]]` up to `neighbour[offset[i + 1] - 1]`. Particle `i` is not among its own.
+struct NeighbourList {
+  std::vector<std::size_t> offset{0};
+  std::vector<Index> neighbour;
+
+  [[nodiscard]] std::size_t size() const { return offset.size() - 1; }
+  [[nodiscard]] std::span<const Index> operator[](std::size_t i) const {
+    return std::span(neighbour).subspan(offset[i], offset[i + 1] - offset[i]);
+  }
+};
+
+namespace detail {
+
+/// A view of positions as nanoflann's dataset concept wants it.
+template <class T, int D>
+struct PointSet {
+  using Scalar = typename VectorView<T, D>::Scalar;
+  VectorView<T, D> points;
+
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+  [[nodiscard]] Scalar kdtree_get_pt(std::size_t i, std::size_t component) const {
+    return points(i, static_cast<int>(component));
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+/// Collects the indices within a closed ball. nanoflann's own result sets use an open ball and
+/// keep squared distances that nobody here needs.
+template <class S>
+class WithinRadius {
+ public:
+  WithinRadius(S squared_radius, std::vector<Index>& found) : squared_radius_(squared_radius), found_(found) {}
+  [[nodiscard]] bool addPoint(S squared_distance, Index index) {
+    if (squared_distance <= squared_radius_) found_.push_back(index);
+    return true;
+  }
+  /// Just beyond the ball, since nanoflann drops what lies at this distance.
+  [[nodiscard]] S worstDist() const { return std::nextafter(squared_radius_, std::numeric_limits<S>::infinity()); }
+  [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] std::size_t size() const { return found_.size(); }
+
+ private:
+  S squared_radius_;
+  std::vector<Index>& found_;
+};
+
+}  // namespace detail
+
+/// Fixed-radius search through a k-d tree (nanoflann) over the user's own positions, which must
+/// outlive it and not move while it is used.
+template <class T, int D>
+class FixedRadiusSearch {
+  using Points = detail::PointSet<T, D>;
+  using Scalar = typename Points::Scalar;
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<Scalar, Points>, Points, D, Index>;
+
+ public:
+  /// Builds the tree over `points` (m). Throws `InputError` at a position that is not finite.
+  explicit FixedRadiusSearch(const VectorView<T, D>& points) : points_{points}, tree_(D, checked(points_)) {}
+  FixedRadiusSearch(const FixedRadiusSearch&) = delete;
+  FixedRadiusSearch& operator=(const FixedRadiusSearch&) = delete;
+
+  /// The particles whose distance to `centre` is at most `radius` (m; the true radius, not its
+  /// square), sorted by index, into `found`. May be called by several threads at once.
+  void operator()(const Vector<Scalar, D>& centre, Scalar radius, std::vector<Index>& found) const {
+    found.clear();
+    if (points_.points.size() == 0) return;
+    detail::WithinRadius<Scalar> within(radius * radius, found);
+    tree_.findNeighbors(within, centre.data(), {});
+    std::sort(found.begin(), found.end());
+  }
+
+ private:
+  static const Points& checked(const Points& set) {
+    require_finite(set.points, "the position");
+    return set;
+  }
+  Points points_;
+  Tree tree_;
+};
+
+/// All neighbours within `radius` (m, closed ball) of every particle of `points`. The lists are
+/// symmetric: distances are measured once per pair, from the lower index. Throws `InputError` for
+/// a radius that is not positive, a position that is not finite and for coincident particles.
+template <class T, int D, Executor E = Serial>
+[[nodiscard]] NeighbourList find_neighbours(const VectorView<T, D>& points, typename VectorView<T, D>::Scalar radius,
+                                            const E& execute = {}) {
+  using Scalar = typename VectorView<T, D>::Scalar;
+  require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
+          "; it must be a positive number of metres");
+  const FixedRadiusSearch<T, D> search(points);
+  const std::size_t n = points.size();
+  std::vector<std::vector<Index>> above(n);
+  execute(n, [&](std::size_t i) {
+    std::vector<Index>& found = above[i];
+    search(points[i], radius, found);
+    std::erase_if(found, [i](Index j) { return j <= i; });
+    for (Index j : found)
+      require((points[j] - points[i]).squaredNorm() > 0, "hmps: particles ", i, " and ", j,
+              " lie at the same place; remove one of them");
+  });
+  NeighbourList list;
+  list.offset.assign(n + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    list.offset[i + 1] += above[i].size();
+    for (Index j : above[i]) ++list.offset[j + 1];
+  }
+  for (std::size_t i = 0; i < n; ++i) list.offset[i + 1] += list.offset[i];
+  list.neighbour.resize(list.offset[n]);
+  // Visiting the lower index in order leaves every list sorted: first those below, then those above.
+  std::vector<std::size_t> next(list.offset.begin(), list.offset.end() - 1);
+  for (std::size_t i = 0; i < n; ++i)
+    for (Index j : above[i]) list.neighbour[next[j]++] = static_cast<Index>(i);
+  for (std::size_t i = 0; i < n; ++i)
+    for (Index j : above[i]) list.neighbour[next[i]++] = j;
+  return list;
+}
+
+}  // namespace hmps

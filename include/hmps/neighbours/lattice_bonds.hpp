@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hmps/neighbours/blocks.hpp"
+#include "hmps/neighbours/bond_list.hpp"
+#include "hmps/neighbours/weight.hpp"
+
+namespace hmps {
+
+namespace detail {
+
+/// The cells of a simple cubic lattice that particles occupy, sorted row by row.
+template <int D>
+struct LatticeCells {
+  using Cell = std::array<std::int32_t, D>;
+  std::vector<Cell> cell;    ///< Cell of each particle.
+  std::vector<Index> order;  ///< The particles, sorted by cell.
+  std::array<int, D> axis;   ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.
+
+  template <class T>
+  LatticeCells(const VectorView<T, D>& reference, double spacing) : cell(reference.size()), order(reference.size()) {
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      for (int c = 0; c < D; ++c) {
+        const double place = (double(reference(i, c)) - double(reference(0, c))) / spacing;
+        require(std::abs(place) < 1e6, "hmps: particle ", i, " lies ", place,
+                " spacings from particle 0; a lattice may span 1e6");
+        const double nearest = std::round(place);
+        require(std::abs(place - nearest) < 1e-3, "hmps: component ", c, " of particle ", i, " lies ", place,
+                " spacings from particle 0, not on the cubic lattice; use BondList for a cloud that is no lattice");
+        cell[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(nearest);
+      }
+    std::iota(order.begin(), order.end(), Index{0});
+    choose_axes();
+    std::sort(order.begin(), order.end(), [this](Index a, Index b) { return key(cell[a]) < key(cell[b]); });
+    for (std::size_t s = 1; s < order.size(); ++s)
+      require(cell[order[s]] != cell[order[s - 1]], "hmps: particles ", order[s - 1], " and ", order[s],
+              " lie at the same place; remove one of them");
+  }
+
+  /// A number that orders cells row by row; that of a cell plus an offset is the sum of both.
+  [[nodiscard]] std::int64_t key(const Cell& c) const {
+    std::int64_t k = 0;
+    for (int d = 0; d < D; ++d)
+      k = k * (std::int64_t{1} << 21) + c[static_cast<std::size_t>(axis[static_cast<std::size_t>(d)])];
+    return k;
+  }
+
+ private:
+  /// Rows along the axis that makes the fewest of them, so that most neighbours of a block follow
+  /// each other; planes across the longest axis, so that neighbouring planes are close in memory.
+  void choose_axes() {
+    std::array<std::size_t, D> rows{};
+    std::array<std::int32_t, D> extent{};
+    for (int d = 0; d < D; ++d) {
+      std::iota(axis.begin(), axis.end(), 0);
+      std::swap(axis[static_cast<std::size_t>(d)], axis[D - 1]);
+      std::vector<std::int64_t> keys(cell.size());
+      std::int32_t low = 0, high = 0;
+      for (std::size_t i = 0; i < cell.size(); ++i) {
+        keys[i] = key(cell[i]);
+        low = std::min(low, cell[i][static_cast<std::size_t>(d)]);
+        high = std::max(high, cell[i][static_cast<std::size_t>(d)]);
+      }
+      std::sort(keys.begin(), keys.end());
+      for (std::size_t i = 0; i < keys.size(); ++i)
+        rows[static_cast<std::size_t>(d)] += (i == 0 || keys[i] != keys[i - 1] + 1) ? 1u : 0u;
+      extent[static_cast<std::size_t>(d)] = high - low;
+    }
+    int fastest = D - 1;
+    for (int d = D - 1; d >= 0; --d)
+      if (rows[static_cast<std::size_t>(d)] < rows[static_cast<std::size_t>(fastest)]) fastest = d;
+    std::iota(axis.begin(), axis.end(), 0);
+    std::swap(axis[static_cast<std::size_t>(fastest)], axis[D - 1]);
+    std::sort(axis.begin(), axis.end() - 1, [&](int a, int b) {
+      const auto ea = extent[static_cast<std::size_t>(a)], eb = extent[static_cast<std::size_t>(b)];
+      return ea != eb ? ea > eb : a < b;
+    });
+  }
+};
+
+}  // namespace detail
+
+/// The bonds of particles on a simple cubic lattice in their reference configuration. All particles
+/// share the offsets r0 and weights w0 (\paper{8}); a block of particles keeps, for each offset, the
+/// runs of neighbours that follow each other, eight bytes each. Satisfies the `Bonds` concept.
+template <class K, int D>
+class LatticeBonds : public Blocks<K, D> {
+  using Base = Blocks<K, D>;
+
+ public:
+  using Base::width;
+
+  /// Bonds all pairs of `reference` (m, any order, on one lattice) no further apart than the
+  /// effective radius for which `bonded(i, j)` holds. Throws `InputError` for particles off the
+  /// lattice, coincident ones, and neighbourhoods that do not span space.
+  template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
+  explicit LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
+                        Weight&& weight = {})
+      : LatticeBonds(reference, settings, checked_cells(reference, settings), bonded, weight) {}
+
+  /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
+  /// to `i` (m) and weight.
+  template <class Visit>
+  void for_each_bond(std::size_t i, Visit&& visit) const {
+    const std::size_t slot = this->slot(i), l = slot % width;
+    for (std::size_t row = first_run_[slot / width]; row < first_run_[slot / width + 1]; ++row) {
+      const Run& run = runs_[row];
+      if ((run.lanes >> l & 1u) == 0) continue;
+      const auto neighbour = static_cast<std::size_t>(run.first + static_cast<std::ptrdiff_t>(l));
+      Vector<K, D> r0;
+      for (int c = 0; c < D; ++c) r0[c] = offset_[run.offset].r0[c];
+      visit(this->particle(neighbour), r0, offset_[run.offset].w);
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::size_t);
+  }
+
+  /// One bond of some lanes of a block, as the sweeps see it: the neighbours of lane l is slot
+  /// `first + l`.
+  struct Row {
+    const K* r0;
+    Lanes<K> w;
+    std::ptrdiff_t first;
+
+    [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const { return load(values + first); }
+    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
+  };
+
+  /// Calls `visit(row)` for each row of bonds of `block`.
+  template <class Visit>
+  HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
+    for (std::size_t row = first_run_[block]; row < first_run_[block + 1]; ++row) {
+      const Run& run = runs_[row];
+      const Offset& offset = offset_[run.offset];
+      visit(Row{offset.r0, spread(run.lanes, offset.w), run.first});
+    }
+  }
+
+ private:
+  struct Offset {
+    K r0[D];
+    K w;
+  };
+  struct Run {
+    std::int32_t first;
+    std::uint16_t lanes;
+    std::uint16_t offset;
+  };
+  static_assert(width <= 16, "hmps: the lanes of a run are kept in 16 bits");
+
+  template <class T>
+  [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
+                                                             const BondSettings& settings) {
+    detail::validate(settings);
+    require_finite(reference, "the reference position");
+    return {reference, settings.spacing};
+  }
+
+  template <class T, class Bonded, class Weight>
+  LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, const detail::LatticeCells<D>& cells,
+               Bonded& bonded, Weight& weight)
+      : Base(reference, cells.order) {
+    const std::size_t n = this->size();
+    std::vector<std::int64_t> keys(n);
+    for (std::size_t s = 0; s < n; ++s) keys[s] = cells.key(cells.cell[cells.order[s]]);
+
+    struct Placed {
+      std::size_t block;
+      Run run;
+    };
+    std::vector<Placed> placed;
+    std::vector<ShapeTensor<D>> shapes(n);
+    ShapeTensor<D> inside;
+    for (const auto& cell : cells_within(settings.radius_ratio)) {
+      Vector<double, D> r0;
+      for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
+      const double radius = settings.spacing * settings.radius_ratio;
+      const double w = weight(std::min(r0.norm(), radius), radius);
+      if (!(w > 0)) continue;
+      inside.add(r0, w);
+      Offset& offset = offset_.emplace_back();
+      for (int c = 0; c < D; ++c) offset.r0[c] = static_cast<K>(r0[c]);
+      offset.w = static_cast<K>(w);
+      const std::int64_t step = cells.key(cell);
+      // Slots are sorted by key, so that the neighbours at one offset are met in order too.
+      for (std::size_t s = 0, t = 0; s < n; ++s) {
+        while (t < n && keys[t] < keys[s] + step) ++t;
+        if (t == n) break;
+        if (keys[t] != keys[s] + step || !bonded(this->particle(s), this->particle(t))) continue;
+        shapes[this->particle(s)].add(r0, w);
+        const std::size_t block = s / width;
+        const auto first =
+            static_cast<std::int32_t>(static_cast<std::ptrdiff_t>(t) - static_cast<std::ptrdiff_t>(s % width));
+        const auto k = static_cast<std::uint16_t>(offset_.size() - 1);
+        if (placed.empty() || placed.back().block != block || placed.back().run.first != first ||
+            placed.back().run.offset != k)
+          placed.push_back({block, {first, 0, k}});
+        placed.back().run.lanes = static_cast<std::uint16_t>(placed.back().run.lanes | 1u << s % width);
+      }
+    }
+    // From offset by offset to block by block: a counting sort keeps the order of the offsets.
+    first_run_.assign(this->block_count() + 1, 0);
+    for (const Placed& p : placed) ++first_run_[p.block + 1];
+    std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
+    runs_.resize(placed.size());
+    std::vector<std::size_t> next(first_run_.begin(), first_run_.end() - 1);
+    for (const Placed& p : placed) runs_[next[p.block]++] = p.run;
+
+    for (std::size_t i = 0; i < n; ++i) this->keep_shape(i, shapes[i]);
+    this->keep_standard(inside);
+  }
+
+  /// The cells no further than `radius` spacings from the origin, without the origin.
+  [[nodiscard]] static std::vector<typename detail::LatticeCells<D>::Cell> cells_within(double radius) {
+    require(radius >= 1 && radius < 16, "hmps: the effective radius is ", radius,
+            " spacings; on a lattice it must be at least 1 and below 16");
+    std::vector<typename detail::LatticeCells<D>::Cell> cells;
+    const auto reach = static_cast<std::int32_t>(std::floor(radius * (1 + 1e-12)));
+    typename detail::LatticeCells<D>::Cell cell;
+    cell.fill(-reach);
+    for (bool more = true; more;) {
+      double squared = 0;
+      for (std::int32_t c : cell) squared += double(c) * c;
+      if (squared > 0 && squared <= radius * radius * (1 + 1e-12)) cells.push_back(cell);
+      more = false;
+      for (std::size_t d = D; d-- > 0 && !more;) {
+        more = cell[d] < reach;
+        cell[d] = more ? cell[d] + 1 : -reach;
+      }
+    }
+    return cells;
+  }
+
+  std::vector<Offset> offset_;
+  std::vector<Run> runs_;
+  std::vector<std::size_t> first_run_;
+};
+
+}  // namespace hmps

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace hmps {
+
+/// Weight of a bond by \paper{8}: w(r) = r_e / r - 1 for 0 < r <= r_e, else 0. Dimensionless.
+/// Any callable `T(T distance, T radius)` that is not negative may stand in its place.
+struct PaperWeight {
+  template <class T>
+  [[nodiscard]] constexpr T operator()(T distance, T radius) const {
+    return distance > T(0) && distance <= radius ? radius / distance - T(1) : T(0);
+  }
+};
+
+/// Effective radius over initial particle spacing, r_e / l0, that the paper uses for bonds and for
+/// metaballs (sections 2.2 and 2.7).
+inline constexpr double paper_radius_ratio = 1.75;
+
+}  // namespace hmps
