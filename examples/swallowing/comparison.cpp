@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "../common/canvas.hpp"
+
+namespace swallowing {
+
+namespace {
+
+using examples::Anchor;
+using examples::Canvas;
+using examples::Colour;
+
+template <class... Values>
+[[nodiscard]] std::string format(const char* pattern, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof(text), pattern, values...);
+  return text;
+}
+
+/// Our result in words: a time, that it did not fold, or why nothing can be said.
+[[nodiscard]] std::string ours(const CaseResult& result) {
+  if (!result.summary) return "not run";
+  if (result.summary->fold_time) return format("%.3f s", *result.summary->fold_time);
+  if (result.summary->failure) return "stopped";
+  return result.summary->time > 2.05 - 1e-4 ? "did not fold" : format("not until %.3f s", result.summary->time);
+}
+[[nodiscard]] std::string papers(const PaperCase& paper) {
+  return paper.fold_time ? format("%.2f s", *paper.fold_time) : "did not fold";
+}
+[[nodiscard]] std::string difference(const PaperCase& paper, const CaseResult& result) {
+  if (!paper.fold_time || !result.summary || !result.summary->fold_time) return "–";
+  return format("%+.0f ms", 1e3 * (*result.summary->fold_time - *paper.fold_time));
+}
+
+constexpr Colour ink = Colour::hex(0x1d2430);
+constexpr Colour faint = Colour::hex(0x6b7480);
+constexpr Colour grid = Colour::hex(0xe3e7ec);
+/// X in warm, Y in cold colours; the low friction dark, the high one light.
+constexpr std::array<Colour, 4> colours{Colour::hex(0xc01c28), Colour::hex(0xf08c2e), Colour::hex(0x1a5fb4),
+                                        Colour::hex(0x33b1a6)};
+
+}  // namespace
+
+std::array<CaseResult, 4> read_results(const std::filesystem::path& out) {
+  std::array<CaseResult, 4> results;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::filesystem::path folder = out / paper_cases[i].name;
+    results[i] = {read_summary(folder / "summary.json"), read_series(folder / "series.csv")};
+  }
+  return results;
+}
+
+void write_table2(const std::filesystem::path& path, const std::array<CaseResult, 4>& results) {
+  std::string text =
+      "# Time of epiglottic downfolding below the horizontal\n\n"
+      "| case | motion model | friction | paper, Table 2 | this program | difference | base to tip | smallest tip "
+      "angle |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < 4; ++i) {
+    const PaperCase& paper = paper_cases[i];
+    const auto& summary = results[i].summary;
+    text += format("| %s | %s | %g | %s | %s | %s | %s | %s |\n", paper.name, paper.motion,
+                   summary ? summary->friction : paper.friction, papers(paper).c_str(), ours(results[i]).c_str(),
+                   difference(paper, results[i]).c_str(),
+                   summary && summary->fold_time_base ? format("%.3f s", *summary->fold_time_base).c_str() : "–",
+                   summary ? format("%.1f°", summary->tip_angle_min).c_str() : "–");
+  }
+  text +=
+      "\nThe time is that at which the line from the centre of the epiglottis (the level of region F) to its tip\n"
+      "first passes below the horizontal; \"base to tip\" reads the line from its base to its tip instead. The\n"
+      "motion was calibrated on case X1 alone: the other three are predictions.\n";
+  std::string runs;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (const auto& s = results[i].summary)
+      runs += format("| %s | %.3g mm | %.4g s | %s | %llu | %llu | %.1f s |\n", paper_cases[i].name, 1e3 * s->spacing,
+                     s->time_step, s->scalar.c_str(), static_cast<unsigned long long>(s->particles_free),
+                     static_cast<unsigned long long>(s->particles_control), s->wall_seconds);
+  if (!runs.empty())
+    text +=
+        "\n| case | spacing | time step | scalar | free particles | control particles | wall clock |\n"
+        "|---|---|---|---|---|---|---|\n" +
+        runs;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (const auto& s = results[i].summary; s && s->failure)
+      text += "\nCase " + std::string(paper_cases[i].name) + " stopped: " + *s->failure + "\n";
+  examples::write_atomically(path, text);
+}
+
+void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4>& results) {
+  constexpr double left = 92, top = 84, width = 1000, height = 600, table = left + width + 56;
+  Canvas canvas(1640, 790);
+  double begin = 1.3, end = 2.05, low = -60, high = 90;
+  for (const CaseResult& result : results)
+    for (const Sample& sample : result.samples)
+      if (sample.time >= begin && std::isfinite(sample.tip_angle)) {
+        low = std::max(-180., std::min(low, 30 * std::floor(sample.tip_angle / 30)));
+        high = std::min(180., std::max(high, 30 * std::ceil(sample.tip_angle / 30)));
+      }
+  const auto px = [&](double t) { return left + (t - begin) / (end - begin) * width; };
+  const auto py = [&](double angle) { return top + (high - angle) / (high - low) * height; };
+
+  canvas.text(left, 44, "Epiglottic downfolding: angle of the tip above the horizontal", 25, ink, Anchor::left, true);
+  for (double angle = low; angle <= high; angle += 30) {
+    canvas.line(left, py(angle), left + width, py(angle), grid, 1);
+    canvas.text(left - 12, py(angle) + 6, format("%.0f°", angle), 16, faint, Anchor::right);
+  }
+  for (int i = 0; i <= 15; ++i) {
+    const double t = begin + 0.05 * i;
+    canvas.line(px(t), top, px(t), top + height, grid, 1);
+    if (i % 2 == 0) canvas.text(px(t), top + height + 26, format("%.1f", t), 16, faint, Anchor::middle);
+  }
+  canvas.text(left + width / 2, top + height + 62, "time (s)", 18, ink, Anchor::middle);
+  canvas.text_upward(28, top + height / 2, "centre to tip (degrees)", 18, ink);
+  canvas.rectangle(left, py(0), width, top + height - py(0), Colour::hex(0x3584e4).opacity(0.06));
+  canvas.line(left, py(0), left + width, py(0), ink, 1.6);
+  canvas.text(left + width - 10, py(0) + 22, "below the horizontal: folded", 15, faint, Anchor::right);
+
+  // Marks of the paper; the two that share one time stand side by side.
+  double last = 0;
+  int level = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!paper_cases[i].fold_time) continue;
+    const double t = *paper_cases[i].fold_time;
+    level = t == last ? level + 1 : 0;
+    last = t;
+    const double x = px(t) + 3 * level;
+    canvas.line(x, top, x, top + height, colours[i].opacity(0.85), 1.8, {3, 6});
+    canvas.text_with_halo(x + 7, top + 20 + 20 * level, std::string("paper ") + paper_cases[i].name, 15, colours[i],
+                          {1, 1, 1}, Anchor::left, true);
+  }
+
+  cairo_save(canvas.cairo());
+  cairo_rectangle(canvas.cairo(), left, top, width, height);
+  cairo_clip(canvas.cairo());
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::vector<std::pair<double, double>> points;
+    for (const Sample& s : results[i].samples)
+      if (std::isfinite(s.tip_angle)) points.emplace_back(px(s.time), py(s.tip_angle));
+    canvas.line(points, Colour{1, 1, 1, 0.8}, 5.5);
+    canvas.line(points, colours[i], 3, i % 2 == 0 ? std::vector<double>{} : std::vector<double>{11, 6});
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    if (const auto& s = results[i].summary; s && s->fold_time) {
+      canvas.disc(px(*s->fold_time), py(0), 8, {1, 1, 1});
+      canvas.disc(px(*s->fold_time), py(0), 6, colours[i]);
+    }
+  cairo_restore(canvas.cairo());
+  canvas.frame(left, top, width, height, faint, 1);
+
+  double y = top + 24;
+  canvas.text(table, y, "Fold time", 21, ink, Anchor::left, true);
+  y += 44;
+  const double column[] = {table + 52, table + 172, table + 304};
+  canvas.text(column[0], y, "case", 16, faint);
+  canvas.text(column[1], y, "paper", 16, faint, Anchor::middle);
+  canvas.text(column[2], y, "here", 16, faint, Anchor::middle);
+  canvas.line(table, y + 14, table + 380, y + 14, faint, 1);
+  for (std::size_t i = 0; i < 4; ++i) {
+    y += 50;
+    canvas.line(table, y - 6, table + 38, y - 6, colours[i], 3.4,
+                i % 2 == 0 ? std::vector<double>{} : std::vector<double>{11, 6});
+    canvas.text(column[0], y, paper_cases[i].name, 19, ink, Anchor::left, true);
+    canvas.text(column[1], y, papers(paper_cases[i]), 17, ink, Anchor::middle);
+    canvas.text(column[2], y, ours(results[i]), 17, results[i].summary ? ink : faint, Anchor::middle,
+                results[i].summary.has_value());
+    const std::string note = format("model %s, friction %g", paper_cases[i].motion,
+                                    results[i].summary ? results[i].summary->friction : paper_cases[i].friction);
+    canvas.text(column[0], y + 20, note, 13, faint);
+  }
+  y += 44;
+  canvas.line(table, y, table + 380, y, faint, 1);
+  y += 34;
+  for (const auto& result : results)
+    if (result.summary) {
+      const Summary& s = *result.summary;
+      canvas.text(table, y,
+                  format("spacing %.3g mm, time step %.3g s, %s", 1e3 * s.spacing, s.time_step, s.scalar.c_str()), 14,
+                  faint);
+      canvas.text(table, y + 22,
+                  format("%llu free and %llu control particles", static_cast<unsigned long long>(s.particles_free),
+                         static_cast<unsigned long long>(s.particles_control)),
+                  14, faint);
+      y += 44;
+      break;
+    }
+  canvas.line(table, y + 8, table + 38, y + 8, faint, 1.8, {3, 6});
+  canvas.text(table + 52, y + 13, "time in the paper's Table 2", 14, faint);
+  canvas.disc(table + 19, y + 32, 6, faint);
+  canvas.text(table + 52, y + 37, "time in this run", 14, faint);
+  canvas.text(table, y + 66, "Calibrated on case X1; the others are predictions.", 14, faint);
+  canvas.save(path);
+}
+
+}  // namespace swallowing
