@@ -7,7 +7,7 @@ if(DOXYGEN_FOUND)
     docs
     COMMAND Doxygen::doxygen ${PROJECT_BINARY_DIR}/Doxyfile
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    COMMENT "API reference: ${PROJECT_BINARY_DIR}/docs/html/index.html"
+    COMMENT "API reference: ${PROJECT_BINARY_DIR}/api/html/index.html"
     VERBATIM)
 else()
   add_custom_target(docs COMMAND ${CMAKE_COMMAND} -E false COMMENT "Doxygen is missing: apt-get install doxygen" VERBATIM)
