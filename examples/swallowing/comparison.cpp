@@ -118,20 +118,21 @@ void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4
   canvas.text_upward(28, top + height / 2, "centre to tip (degrees)", 18, ink);
   canvas.rectangle(left, py(0), width, top + height - py(0), Colour::hex(0x3584e4).opacity(0.06));
   canvas.line(left, py(0), left + width, py(0), ink, 1.6);
-  canvas.text(left + width - 10, py(0) + 22, "below the horizontal: folded", 15, faint, Anchor::right);
+  canvas.text(left + 12, py(0) + 24, "below the horizontal: folded", 15, faint);
 
   // Marks of the paper; the two that share one time stand side by side.
-  double last = 0;
+  double last_time = 0;
   int level = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     if (!paper_cases[i].fold_time) continue;
     const double t = *paper_cases[i].fold_time;
-    level = t == last ? level + 1 : 0;
-    last = t;
+    level = t == last_time ? level + 1 : 0;
+    last_time = t;
     const double x = px(t) + 3 * level;
     canvas.line(x, top, x, top + height, colours[i].opacity(0.85), 1.8, {3, 6});
-    canvas.text_with_halo(x + 7, top + 20 + 20 * level, std::string("paper ") + paper_cases[i].name, 15, colours[i],
-                          {1, 1, 1}, Anchor::left, true);
+    const bool leftward = i == 0;
+    canvas.text_with_halo(leftward ? x - 7 : x + 7, top + 20 + 20 * level, std::string("paper ") + paper_cases[i].name,
+                          15, colours[i], {1, 1, 1}, leftward ? Anchor::right : Anchor::left, true);
   }
 
   cairo_save(canvas.cairo());

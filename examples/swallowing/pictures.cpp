@@ -20,6 +20,7 @@ constexpr Colour ink = Colour::hex(0x1d2430);
 constexpr Colour faint = Colour::hex(0x6b7480);
 constexpr Colour ground = Colour::hex(0xf4f6f9);
 constexpr Colour control_colour = Colour::hex(0x20232b);
+constexpr Colour mark = Colour::hex(0xc01c28);
 constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
 
 [[nodiscard]] Colour colour_of(const std::string& organ) {
@@ -73,7 +74,7 @@ void draw_particles(Canvas& canvas, const Snapshot& s, const Window& window) {
     fill = fill.mixed(ground, fog);
     const double x = window.px(s.positions[i][0]), z = window.py(s.positions[i][2]);
     canvas.disc(x, z, radius, rim);
-    canvas.disc(x - 0.06 * radius, z - 0.06 * radius, radius - std::max(0.7, 0.13 * radius), fill);
+    canvas.disc(x - 0.06 * radius, z - 0.06 * radius, radius - std::max(0.35, 0.13 * radius), fill);
     canvas.disc(x - 0.3 * radius, z - 0.34 * radius, 0.3 * radius, fill.mixed({1, 1, 1}, 0.3));
   }
 }
@@ -86,9 +87,9 @@ void draw_angle(Canvas& canvas, const Snapshot& s, const Window& window) {
   canvas.line(cx, cz, cx + reach, cz, Colour{1, 1, 1, 0.85}, 3.5);
   canvas.line(cx, cz, cx + reach, cz, ink, 1.4, {5, 4});
   canvas.line(cx, cz, tx, tz, Colour{1, 1, 1, 0.9}, 5);
-  canvas.line(cx, cz, tx, tz, Colour::hex(0xc01c28), 2.4);
+  canvas.line(cx, cz, tx, tz, mark, 2.4);
   canvas.disc(cx, cz, 4.6, {1, 1, 1});
-  canvas.disc(cx, cz, 3.2, Colour::hex(0xc01c28));
+  canvas.disc(cx, cz, 3.2, mark);
 }
 
 void draw_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
@@ -111,12 +112,16 @@ void draw_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
   if (control) entry(control_colour, "control regions");
   if (plate) entry(plate_colour, "region H (constrictors)");
   y += 2;
-  canvas.line(x, y - 6, x + 20, y - 6, Colour::hex(0xc01c28), 2.4);
-  canvas.disc(x, y - 6, 3.2, Colour::hex(0xc01c28));
+  canvas.line(x, y - 6, x + 20, y - 6, mark, 2.4);
+  canvas.disc(x, y - 6, 3.2, mark);
   canvas.text(x + 30, y, "centre to tip of epiglottis", 17, ink);
   y += 27;
   canvas.line(x, y - 6, x + 20, y - 6, ink, 1.4, {5, 4});
-  canvas.text(x + 30, y, "horizontal", 17, ink);
+  canvas.text(x + 30, y, "horizontal through the centre", 17, ink);
+  y += 40;
+  canvas.text(x, y, "Right half, seen from the midsagittal plane;", 15, faint);
+  canvas.text(x, y + 20, "the farther from it, the paler. Angle: centre to", 15, faint);
+  canvas.text(x, y + 40, "tip above the horizontal.", 15, faint);
 }
 
 }  // namespace
@@ -162,7 +167,7 @@ std::optional<Snapshot> Snapshots::load(std::size_t panel) const {
 }
 
 void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
-  constexpr int columns = 5, rows = 2, gap = 16, top = 64;
+  constexpr int columns = 5, rows = 2, gap = 18, top = 66, strip = 40;
   constexpr double panel_width = 400;
 
   Window window{1e9, 1e9, -1e9, -1e9, 1};
@@ -187,14 +192,19 @@ void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, c
   const double panel_height = std::clamp((window.z1 - window.z0) * window.scale, 200., 1600.);
 
   Canvas canvas(static_cast<int>(columns * (panel_width + gap) + gap),
-                static_cast<int>(top + rows * (panel_height + gap)));
+                static_cast<int>(top + rows * (panel_height + strip + gap)));
   canvas.text(gap, 42, title, 26, ink, Anchor::left, true);
   const Snapshot* any = nullptr;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double x = gap + static_cast<double>(i % columns) * (panel_width + gap);
-    const double y = top + static_cast<double>(i / columns) * (panel_height + gap);
+    const double y = top + static_cast<double>(i / columns) * (panel_height + strip + gap);
+    const std::string letter(1, static_cast<char>('a' + i));
+    canvas.text(x + 4, y + 28, letter, 25, ink, Anchor::left, true);
+    canvas.text(x + 30, y + 28, format("%.3f s", picture_times[i]), 21, ink);
+    if (panels[i])
+      canvas.text(x + panel_width - 4, y + 28, format("%+.1f°", panels[i]->tip_angle), 21, mark, Anchor::right, true);
     cairo_save(canvas.cairo());
-    cairo_translate(canvas.cairo(), x, y);
+    cairo_translate(canvas.cairo(), x, y + strip);
     cairo_rectangle(canvas.cairo(), 0, 0, panel_width, panel_height);
     cairo_clip(canvas.cairo());
     canvas.rectangle(0, 0, panel_width, panel_height, ground);
@@ -205,19 +215,14 @@ void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, c
     } else {
       canvas.text(panel_width / 2, panel_height / 2, "not reached", 20, faint, Anchor::middle);
     }
-    const std::string letter(1, static_cast<char>('a' + i));
-    canvas.text_with_halo(14, 32, letter, 24, ink, ground, Anchor::left, true);
-    canvas.text_with_halo(38, 32, format("%.3f s", picture_times[i]), 20, ink, ground);
-    if (panels[i])
-      canvas.text_with_halo(panel_width - 14, 32, format("%+.0f°", panels[i]->tip_angle), 20, Colour::hex(0xa51d2d),
-                            ground, Anchor::right, true);
     if (i == 0) {
       canvas.line(16, panel_height - 18, 16 + 0.02 * window.scale, panel_height - 18, ink, 3);
       canvas.text_with_halo(16 + 0.01 * window.scale, panel_height - 26, "20 mm", 15, ink, ground, Anchor::middle);
+      canvas.text_with_halo(16, panel_height - 54, "← anterior", 15, faint, ground);
     }
     cairo_restore(canvas.cairo());
   }
-  if (any) draw_legend(canvas, gap + 4 * (panel_width + gap) + 30, top + panel_height + gap + 60, *any);
+  if (any) draw_legend(canvas, gap + 4 * (panel_width + gap) + 30, top + panel_height + strip + gap + 76, *any);
   canvas.save(path);
 }
 
