@@ -51,21 +51,22 @@ HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t bloc
   });
 }
 
-/// Hands the vectors of the particles of `block` out to the user's `view`.
-template <class K, int D, class T>
-HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const Vector<Lanes<K>, D>& lanes,
-                         const VectorView<T, D>& view) {
+/// Hands `N` numbers of each particle of `block` out to the user's `view`; `lanes(component)` are those
+/// of the particles in their lanes.
+template <class K, int D, class T, int N, class Component>
+HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view, Component&& lanes) {
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
-  const bool consecutive = blocks.consecutive(block);
-  for (int c = 0; c < D; ++c) {
-    if (consecutive && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
+  const bool consecutive = blocks.consecutive(block) && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T));
+  for (int c = 0; c < N; ++c) {
+    const Lanes<K> numbers = lanes(c);
+    if (consecutive) {
       T* target = view.base(c) + blocks.particle(first);
-      for (std::size_t l = 0; l < width; ++l) target[l] = static_cast<T>(lanes[c].lane[l]);
+      for (std::size_t l = 0; l < width; ++l) target[l] = static_cast<T>(numbers.lane[l]);
     } else {
       for (std::size_t l = 0; l < width; ++l) {
         const Index i = blocks.particle(first + l);
-        if (i != Blocks<K, D>::none) view(i, c) = static_cast<T>(lanes[c].lane[l]);
+        if (i != Blocks<K, D>::none) view(i, c) = static_cast<T>(numbers.lane[l]);
       }
     }
   }
@@ -106,12 +107,8 @@ struct Record {
 
   template <class K>
   HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>&) const {
-    for (int l = 0; l < Lanes<K>::width; ++l) {
-      const Index i = particles.particle(l);
-      if (i == Blocks<K, D>::none) continue;
-      for (int k = 0; k < D * D; ++k)
-        target(i, k) = static_cast<T>(particles.deformation_gradient(k % D, k / D).lane[l]);
-    }
+    const auto& F = particles.deformation_gradient;
+    detail::deliver(particles.blocks(), particles.block(), target, [&](int k) { return F(k % D, k / D); });
   }
 };
 

@@ -136,7 +136,7 @@ class InternalForce {
     });
     if constexpr (damps)
       for (int d = 0; d < D; ++d) force[d] += damping_ * drag[d];
-    detail::deliver(*bonds_, block, force, f);
+    detail::deliver(*bonds_, block, f, [&](int d) { return force[d]; });
   }
 
   const B* bonds_;

@@ -33,6 +33,9 @@ class BlockOfParticles {
     return blocks_.particle(block_ * Blocks<K, D>::width + static_cast<std::size_t>(lane));
   }
 
+  [[nodiscard]] HMPS_INLINE const Blocks<K, D>& blocks() const { return blocks_; }
+  [[nodiscard]] HMPS_INLINE std::size_t block() const { return block_; }
+
   /// A parameter of each particle, from the user's array of one number per particle.
   template <class P>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& parameter) const {

@@ -86,6 +86,14 @@ struct LatticeCells {
 
 }  // namespace detail
 
+/// The order of particles on a cubic lattice of `spacing` (m) in which the sweeps over `LatticeBonds`
+/// visit them: particle `order[s]` comes at place s. Arrays of state that are kept in this order are
+/// read in one go. Throws `InputError` for particles off the lattice or at the same place.
+template <class T, int D>
+[[nodiscard]] std::vector<Index> lattice_order(const VectorView<T, D>& reference, double spacing) {
+  return detail::LatticeCells<D>(reference, spacing).order;
+}
+
 /// The bonds of particles on a simple cubic lattice in their reference configuration. All particles
 /// share the offsets r0 and weights w0 (\paper{8}); a block of particles keeps, for each offset, the
 /// runs of neighbours that follow each other, eight bytes each. Satisfies the `Bonds` concept.
