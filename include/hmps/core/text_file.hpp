@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "hmps/core/error.hpp"
+
+namespace hmps::detail {
+
+/// The bytes of the file `path`. Throws `InputError` if it cannot be read.
+[[nodiscard]] inline std::string read_text(const std::string& path) {
+  std::error_code ignored;
+  std::ifstream file(path, std::ios::binary);
+  require(file.good(), "hmps: cannot open ", path, "; check that the file exists and may be read");
+  require(!std::filesystem::is_directory(path, ignored), "hmps: ", path, " is a folder; give a file");
+  // Grown in pieces rather than by the file's size, so that pipes can be read too.
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::string text;
+  while (file) {
+    const std::size_t size = text.size();
+    text.resize(size + piece);
+    file.read(text.data() + size, static_cast<std::streamsize>(piece));
+    text.resize(size + static_cast<std::size_t>(file.gcount()));
+  }
+  require(file.eof() && !file.bad(), "hmps: ", path, " cannot be read to its end; check the file and its disk");
+  return text;
+}
+
+/// `text` without blanks at its ends; a carriage return counts as one.
+[[nodiscard]] inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r";
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+/// Cuts the first line off `text`, without its end.
+[[nodiscard]] inline std::string_view take_line(std::string_view& text) {
+  const auto end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+/// Cuts the first word off `text`; empty at its end.
+[[nodiscard]] inline std::string_view take_word(std::string_view& text) {
+  text = trimmed(text);
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r"));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+/// Reads the whole of `text` as a number, whatever the locale; false if it is not one.
+template <class T>
+[[nodiscard]] bool parse_number(std::string_view text, T& number) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && stop == text.data() + text.size();
+}
+
+}  // namespace hmps::detail

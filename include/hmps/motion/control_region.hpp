@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/motion/rigid_motion.hpp"
+
+namespace hmps {
+
+/// A control region (section 3.1 of the paper): particles that shift by forced displacement. Their
+/// velocity is prescribed so that the following drift, \paper{4}, lands on the motion; whatever
+/// forces they received before is overwritten. Elastic neighbours feel them through the bonds,
+/// contact sees them as any other particle.
+///
+/// `reference` is a view of the reference positions of all particles; the caller keeps them alive.
+/// `M` is a `Motion`; the default holds any that returns a `Pose`, so that regions of different
+/// motions fit one vector.
+template <class S, int D, class M = std::function<Pose<double, D>(double)>>
+requires Motion<M, D>
+class ControlRegion {
+ public:
+  /// Throws `InputError` for an index beyond the view, one given twice, or a reference position
+  /// that is not finite.
+  ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
+      : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
+    std::vector<Index> sorted = particles_;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+      require(sorted[k] < reference.size(), "hmps: a control region names particle ", sorted[k], " but there are only ",
+              reference.size(), "; give indices into the view of reference positions");
+      require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
+              " twice; name each once");
+      require(reference[sorted[k]].allFinite(), "hmps: the reference position of particle ", sorted[k], " is (",
+              reference[sorted[k]].transpose(), "); give finite metres");
+    }
+  }
+
+  [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
+  [[nodiscard]] const M& motion() const { return motion_; }
+
+  /// The prescribed position of the `k`-th particle of the region at time `t` (s).
+  [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
+    return motion_(t)(reference_[particles_[k]].template cast<double>());
+  }
+
+  /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed
+  /// position at `t_next` = t + dt (s). Call it after the last kick and before the drift. The error
+  /// of rounding in `x` does not add up over steps.
+  ///
+  /// `speed_limit` (m/s): throws `StateError`, naming particle and speed, where the motion asks for
+  /// more or is not finite, as when a run starts in the middle of a motion without `place`.
+  template <class X, class V, Executor E = Serial>
+  void prescribe(double t_next, double dt, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute = {},
+                 double speed_limit = std::numeric_limits<double>::max()) const {
+    require(std::isfinite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
+            " s; give a positive step");
+    require_size(x, reference_.size(), "positions");
+    require_size(v, reference_.size(), "velocities");
+    const auto pose = motion_(t_next);
+    execute(particles_.size(), [&](std::size_t k) {
+      const std::size_t i = particles_[k];
+      const Vector<double, D> target = pose(Vector<double, D>(reference_[i].template cast<double>()));
+      const Vector<double, D> rate = (target - x[i].template cast<double>()) / dt;
+      if (!(rate.norm() <= speed_limit))
+        throw StateError(message("hmps: a control region asks particle ", i, " for ", rate.norm(), " m/s to be at (",
+                                 target.transpose(), ") at ", t_next,
+                                 " s; check its keyframes, or place the region where the run starts"));
+      v.set(i, rate);
+    });
+  }
+
+  /// Puts the region's particles where they are at time `t` (s), with the velocity of the motion
+  /// there (central difference over 2 microseconds): the start of a run within a motion.
+  template <class X, class V>
+  void place(double t, const VectorView<X, D>& x, const VectorView<V, D>& v) const {
+    require_size(x, reference_.size(), "positions");
+    require_size(v, reference_.size(), "velocities");
+    constexpr double h = 1e-6;
+    const auto now = motion_(t);
+    const auto before = motion_(t - h);
+    const auto after = motion_(t + h);
+    for (const Index i : particles_) {
+      const Vector<double, D> reference = reference_[i].template cast<double>();
+      x.set(i, Vector<double, D>(now(reference)));
+      v.set(i,
+            Vector<double, D>((Vector<double, D>(after(reference)) - Vector<double, D>(before(reference))) / (2 * h)));
+    }
+  }
+
+ private:
+  std::vector<Index> particles_;
+  VectorView<const S, D> reference_;
+  M motion_;
+};
+
+template <class T, int D, class M>
+ControlRegion(std::vector<Index>, const VectorView<T, D>&, M) -> ControlRegion<std::remove_const_t<T>, D, M>;
+
+}  // namespace hmps

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/text_file.hpp"
+#include "hmps/motion/keyframes.hpp"
+
+namespace hmps {
+
+/// A table of numbers with named columns, as read from a CSV file.
+struct Table {
+  std::string source;              ///< file name, for messages
+  std::vector<std::string> names;  ///< of the columns
+  std::vector<double> values;      ///< row by row
+  std::vector<std::size_t> lines;  ///< line of the file, from 1, of each row
+
+  [[nodiscard]] std::size_t rows() const { return lines.size(); }
+  [[nodiscard]] std::size_t columns() const { return names.size(); }
+  [[nodiscard]] double operator()(std::size_t row, std::size_t column) const {
+    return values[row * names.size() + column];
+  }
+
+  [[nodiscard]] bool has(std::string_view name) const {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+
+  /// The index of the column `name`. Throws `InputError` that lists the columns if there is none.
+  [[nodiscard]] std::size_t column(std::string_view name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      std::string all;
+      for (const auto& n : names) all += (all.empty() ? "" : ", ") + n;
+      throw InputError(message("hmps: ", source, " has no column '", name, "'; it has ", all));
+    }
+    return static_cast<std::size_t>(found - names.begin());
+  }
+};
+
+namespace detail {
+
+/// Calls `use(cell)` for each cell of a line, trimmed.
+template <class Use>
+void for_each_cell(std::string_view line, Use&& use) {
+  for (;;) {
+    const auto comma = line.find(',');
+    use(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace detail
+
+/// Reads comma-separated numbers: a header line of distinct column names, then one row of as many
+/// finite numbers per line. Blank lines and what follows a `#` are skipped, blanks around cells are
+/// ignored, lines may end in CR LF. `source` names the text in messages. Throws `InputError` with
+/// source, line and column at the first cell that is not a finite number, a row with too few or too
+/// many cells, a name that is empty or given twice, and for a text without header.
+[[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
+  Table table;
+  table.source = std::move(source);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  for (std::size_t line_number = 1; !text.empty(); ++line_number) {
+    std::string_view line = detail::take_line(text);
+    line = detail::trimmed(line.substr(0, line.find('#')));
+    if (line.empty()) continue;
+    const auto fail = [&](const auto&... parts) {
+      throw InputError(message("hmps: ", table.source, ", line ", line_number, ": ", parts...));
+    };
+    if (table.names.empty()) {
+      detail::for_each_cell(line, [&](std::string_view name) {
+        if (name.empty()) fail("column ", table.names.size() + 1, " has no name; the first line names every column");
+        if (table.has(name)) fail("the column '", name, "' is named twice; name each column once");
+        table.names.emplace_back(name);
+      });
+      continue;
+    }
+    std::size_t cell_number = 0;
+    detail::for_each_cell(line, [&](std::string_view cell) {
+      if (cell_number < table.names.size()) {
+        double number{};
+        if (!detail::parse_number(cell, number) || !std::isfinite(number))
+          fail("'", cell, "' in column '", table.names[cell_number], "' is not a finite number");
+        table.values.push_back(number);
+      }
+      ++cell_number;
+    });
+    if (cell_number != table.names.size())
+      fail("the row has ", cell_number, " cells but the header names ", table.names.size(),
+           " columns; separate cells by commas");
+    table.lines.push_back(line_number);
+  }
+  require(!table.names.empty(), "hmps: ", table.source, " is empty; its first line must name the columns");
+  return table;
+}
+
+/// Reads the file `path` with `parse_csv`. Throws `InputError` also if it cannot be read.
+[[nodiscard]] inline Table read_csv(const std::string& path) { return parse_csv(detail::read_text(path), path); }
+
+/// Keyframes from the columns `names` of a table, times from its column `time` in seconds; values
+/// are multiplied by `scale` (1e-3 for millimetres, pi/180 for degrees). Throws `InputError` for a
+/// missing column, an empty table, and times that do not increase, with the line.
+template <std::size_t N>
+[[nodiscard]] Keyframes<static_cast<int>(N)> keyframes(const Table& table, const std::array<std::string_view, N>& names,
+                                                       double scale = 1, std::string_view time = "t") {
+  const std::size_t clock = table.column(time);
+  std::array<std::size_t, N> columns{};
+  for (std::size_t c = 0; c < N; ++c) columns[c] = table.column(names[c]);
+  require(table.rows() > 0, "hmps: ", table.source, " has a header but no row; give at least one keyframe");
+  std::vector<Keyframe<static_cast<int>(N)>> keys(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    keys[row].time = table(row, clock);
+    require(row == 0 || keys[row - 1].time < keys[row].time, "hmps: ", table.source, ", line ", table.lines[row],
+            ": the time ", keys[row].time, " s does not follow ", row == 0 ? 0.0 : keys[row - 1].time,
+            " s; sort the rows and give each time once");
+    for (std::size_t c = 0; c < N; ++c) {
+      if constexpr (N == 1)
+        keys[row].value = scale * table(row, columns[c]);
+      else
+        keys[row].value[static_cast<Eigen::Index>(c)] = scale * table(row, columns[c]);
+    }
+  }
+  return Keyframes<static_cast<int>(N)>(std::move(keys));
+}
+
+/// The column `name` of a table as a track of one number; see `keyframes`.
+[[nodiscard]] inline Track track(const Table& table, std::string_view name, double scale = 1,
+                                 std::string_view time = "t") {
+  return keyframes<1>(table, {name}, scale, time);
+}
+
+}  // namespace hmps

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps {
+
+/// Value of a track at one time: a number for `N` = 1, else `N` numbers.
+template <int N>
+struct Keyframe {
+  using Value = std::conditional_t<N == 1, double, Vector<double, N>>;
+  double time = 0;  ///< s
+  Value value{};    ///< m or rad, as the motion that uses it says
+};
+
+/// A track through keyframes: in each component the monotone cubic of Fritsch and Carlson (slopes
+/// by the weighted harmonic mean of Fritsch and Butland), with zero slope at both ends and constant
+/// before the first and after the last keyframe. Value and rate are continuous for all times,
+/// nothing overshoots a keyframe, and a component that is the same in two neighbouring keyframes
+/// stays between them. Always double: a motion is cheap, and time in float loses steps.
+///
+/// A run that starts later than the first keyframe starts inside of the motion: place its regions
+/// at that time (`ControlRegion::place`), or the first step makes up for what was missed.
+template <int N>
+class Keyframes {
+ public:
+  using Value = typename Keyframe<N>::Value;
+
+  /// Keyframes with strictly increasing times. Throws `InputError` if there is none, and at the
+  /// first, counted from 0, that is not finite or out of order.
+  explicit Keyframes(std::vector<Keyframe<N>> keys) : keys_(std::move(keys)), slopes_(keys_.size(), zero()) {
+    require(!keys_.empty(), "hmps: a track has no keyframe; give at least one time and value");
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      require(std::isfinite(keys_[k].time), "hmps: keyframe ", k, " has the time ", keys_[k].time,
+              "; give finite seconds");
+      for (int c = 0; c < N; ++c)
+        require(std::isfinite(at(keys_[k].value, c)), "hmps: component ", c, " of keyframe ", k, " at ", keys_[k].time,
+                " s is ", at(keys_[k].value, c), "; give finite values");
+      require(k == 0 || keys_[k - 1].time < keys_[k].time, "hmps: keyframe ", k, " at ", keys_[k].time,
+              " s follows one at ", k == 0 ? 0.0 : keys_[k - 1].time,
+              " s; sort the keyframes by time and give each time once");
+    }
+    for (std::size_t k = 1; k + 1 < keys_.size(); ++k)
+      for (int c = 0; c < N; ++c) at(slopes_[k], c) = slope(k, c);
+  }
+  Keyframes(std::initializer_list<Keyframe<N>> keys) : Keyframes(std::vector<Keyframe<N>>(keys)) {}
+
+  /// The value at `time` (s).
+  [[nodiscard]] Value value(double time) const {
+    if (!(time > keys_.front().time)) return keys_.front().value;
+    if (time >= keys_.back().time) return keys_.back().value;
+    const std::size_t k = piece(time);
+    const double h = keys_[k + 1].time - keys_[k].time;
+    const double s = (time - keys_[k].time) / h;
+    // Written around the nearer keyframe's value, so that equal neighbours give exactly it.
+    const double rise = s * s * (3 - 2 * s);
+    return keys_[k].value + rise * (keys_[k + 1].value - keys_[k].value) +
+           h * s * (1 - s) * ((1 - s) * slopes_[k] - s * slopes_[k + 1]);
+  }
+  [[nodiscard]] Value operator()(double time) const { return value(time); }
+
+  /// The derivative of the value with respect to time at `time` (s).
+  [[nodiscard]] Value rate(double time) const {
+    if (!(time > keys_.front().time) || time >= keys_.back().time) return zero();
+    const std::size_t k = piece(time);
+    const double h = keys_[k + 1].time - keys_[k].time;
+    const double s = (time - keys_[k].time) / h;
+    return 6 * s * (1 - s) / h * (keys_[k + 1].value - keys_[k].value) + (1 - s) * (1 - 3 * s) * slopes_[k] +
+           s * (3 * s - 2) * slopes_[k + 1];
+  }
+
+  [[nodiscard]] const std::vector<Keyframe<N>>& keys() const { return keys_; }
+
+ private:
+  [[nodiscard]] static Value zero() {
+    if constexpr (N == 1)
+      return 0.0;
+    else
+      return Value::Zero();
+  }
+  template <class V>
+  [[nodiscard]] static auto& at(V& value, [[maybe_unused]] int c) {
+    if constexpr (N == 1)
+      return value;
+    else
+      return value[c];
+  }
+  [[nodiscard]] std::size_t piece(double time) const {
+    const auto above = std::upper_bound(keys_.begin(), keys_.end(), time,
+                                        [](double t, const Keyframe<N>& key) { return t < key.time; });
+    return static_cast<std::size_t>(above - keys_.begin()) - 1;
+  }
+  [[nodiscard]] double slope(std::size_t k, int c) const {
+    const double before = keys_[k].time - keys_[k - 1].time;
+    const double behind = keys_[k + 1].time - keys_[k].time;
+    const double left = (at(keys_[k].value, c) - at(keys_[k - 1].value, c)) / before;
+    const double right = (at(keys_[k + 1].value, c) - at(keys_[k].value, c)) / behind;
+    if (!(left * right > 0)) return 0;
+    const double w1 = 2 * behind + before;
+    const double w2 = behind + 2 * before;
+    return (w1 + w2) / (w1 / left + w2 / right);
+  }
+
+  std::vector<Keyframe<N>> keys_;
+  std::vector<Value> slopes_;
+};
+
+/// A track of one number.
+using Track = Keyframes<1>;
+
+}  // namespace hmps

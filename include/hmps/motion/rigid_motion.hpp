@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <utility>
+
+#include "hmps/core/types.hpp"
+#include "hmps/motion/keyframes.hpp"
+#include "hmps/motion/pose.hpp"
+
+namespace hmps {
+
+/// A motion in `D` dimensions. Valid expression: `motion(t)(X)`, the position at time `t` (s) of the
+/// material point with reference position `X` (m), both in double. Satisfied by anything that
+/// returns a `Pose`, and by a user's lambda that returns a lambda, which need not be rigid.
+template <class M, int D>
+concept Motion = requires(const M& motion, double t, const Vector<double, D>& reference) {
+  { motion(t)(reference) } -> std::convertible_to<Vector<double, D>>;
+};
+
+/// The motion of what stays where it is.
+template <int D>
+struct Fixed {
+  [[nodiscard]] Pose<double, D> operator()(double) const { return {}; }
+};
+
+/// Translation along a track in metres.
+template <int D>
+struct Translation {
+  Keyframes<D> translation;
+  [[nodiscard]] Pose<double, D> operator()(double t) const {
+    Pose<double, D> pose;
+    pose.translation = translation.value(t);
+    return pose;
+  }
+};
+
+/// Rotation about `axis` (of any length) through `pivot` by a track of angles in rad.
+struct Turn {
+  Vector<double, 3> pivot;
+  Vector<double, 3> axis;
+  Track angle;
+  [[nodiscard]] Pose<double, 3> operator()(double t) const {
+    return {rotation<double>(Vector<double, 3>(angle.value(t) * axis.normalized())), pivot, Vector<double, 3>::Zero()};
+  }
+};
+
+/// Translation of a pivot along a track (m) and rotation about it: by an angle in 2D, by a rotation
+/// vector in 3D (rad).
+template <int D>
+struct RigidMotion {
+  Vector<double, D> pivot;
+  Keyframes<D> translation;
+  Keyframes<D == 2 ? 1 : 3> turn;
+
+  [[nodiscard]] Pose<double, D> operator()(double t) const {
+    return {rotation<double>(turn.value(t)), pivot, translation.value(t)};
+  }
+  /// How fast the pose changes at `t`.
+  [[nodiscard]] PoseRate<double, D> rate(double t) const {
+    PoseRate<double, D> rate;
+    rate.linear = translation.rate(t);
+    if constexpr (D == 2)
+      rate.angular[0] = turn.rate(t);
+    else
+      rate.angular = angular_velocity<double>(turn.value(t), turn.rate(t));
+    return rate;
+  }
+};
+
+/// Motion of a region that takes part in the motion `carrier` and moves by `own` within it, as the
+/// arytenoids do on the larynx: `own` is described in the reference configuration of the carrier.
+template <class Carrier, class Own>
+[[nodiscard]] auto carried(Carrier carrier, Own own) {
+  return [carrier = std::move(carrier), own = std::move(own)](double t) {
+    if constexpr (requires { compose(carrier(t), own(t)); })
+      return compose(carrier(t), own(t));
+    else
+      return [outer = carrier(t), inner = own(t)](const auto& reference) { return outer(inner(reference)); };
+  };
+}
+
+}  // namespace hmps

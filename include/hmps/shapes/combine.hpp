@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/implicit.hpp"
+
+namespace hmps {
+
+namespace detail {
+
+/// A shape made of the function object `rule` of a position. Wrapping the lambda keeps the names of
+/// the combinators short in error messages and lets any position type through unconverted.
+template <class Rule>
+struct Combined {
+  Rule rule;
+  template <class V>
+  [[nodiscard]] typename V::Scalar operator()(const V& x) const {
+    return rule(x);
+  }
+};
+template <class Rule>
+Combined(Rule) -> Combined<Rule>;
+
+/// Polynomial smooth minimum: `min(a, b)` where they differ by more than `width`, at most
+/// `width / 4` below it where they are equal; once continuously differentiable.
+template <class S>
+[[nodiscard]] S smooth_min(S a, S b, S width) {
+  if (!(width > S(0))) return std::min(a, b);
+  const S overlap = std::max(width - std::abs(a - b), S(0)) / width;
+  return std::min(a, b) - overlap * overlap * width / S(4);
+}
+
+}  // namespace detail
+
+/// Points in any of the shapes. The distance is exact outside if those of the parts are.
+template <class A, class B, class... More>
+[[nodiscard]] auto unite(A a, B b, More... more) {
+  if constexpr (sizeof...(More) == 0)
+    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return std::min(a(x), b(x)); }};
+  else
+    return unite(unite(std::move(a), std::move(b)), std::move(more)...);
+}
+
+/// Points in any of a list of shapes of one type, e.g. of `Ball`s. Needs at least one shape.
+template <class A>
+[[nodiscard]] auto unite_all(std::vector<A> shapes) {
+  return detail::Combined{[shapes = std::move(shapes)](const auto& x) {
+    auto least = shapes.front()(x);
+    for (std::size_t k = 1; k < shapes.size(); ++k) least = std::min(least, shapes[k](x));
+    return least;
+  }};
+}
+
+/// Points in all of the shapes. A lower bound of the distance if those of the parts are exact.
+template <class A, class B, class... More>
+[[nodiscard]] auto intersect(A a, B b, More... more) {
+  if constexpr (sizeof...(More) == 0)
+    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return std::max(a(x), b(x)); }};
+  else
+    return intersect(intersect(std::move(a), std::move(b)), std::move(more)...);
+}
+
+/// Points not in the shape. Exact if the shape is.
+template <class A>
+[[nodiscard]] auto complement(A a) {
+  return detail::Combined{[a = std::move(a)](const auto& x) { return -a(x); }};
+}
+
+/// Points of `a` that are in none of the other shapes. A lower bound of the distance if those of
+/// the parts are exact.
+template <class A, class B, class... More>
+[[nodiscard]] auto subtract(A a, B b, More... more) {
+  if constexpr (sizeof...(More) == 0)
+    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return std::max(a(x), -b(x)); }};
+  else
+    return subtract(subtract(std::move(a), std::move(b)), std::move(more)...);
+}
+
+/// The shape grown by `distance` metres (shrunk if negative).
+template <class A, class S>
+[[nodiscard]] auto offset(A a, S distance) {
+  return detail::Combined{[a = std::move(a), distance](const auto& x) {
+    return a(x) - static_cast<typename std::decay_t<decltype(x)>::Scalar>(distance);
+  }};
+}
+
+/// Points whose signed distance to the shape lies between `from` and `to` metres: `layer(a, 0, t)`
+/// is a wall of thickness t outside of a, `layer(a, -t, 0)` inside of it.
+template <class A, class S>
+[[nodiscard]] auto layer(A a, S from, S to) {
+  return detail::Combined{[a = std::move(a), from, to](const auto& x) {
+    using Scalar = typename std::decay_t<decltype(x)>::Scalar;
+    const Scalar d = a(x);
+    return std::max(static_cast<Scalar>(from) - d, d - static_cast<Scalar>(to));
+  }};
+}
+
+/// Sheet of the given thickness with the surface of `a` in its middle.
+template <class A, class S>
+[[nodiscard]] auto shell(A a, S thickness) {
+  return layer(std::move(a), -thickness / 2, thickness / 2);
+}
+
+/// Union with a fillet: where the two distances differ by less than `radius`, material is added, at
+/// most radius / 4 where they are equal. Exact nowhere near the fillet, but smooth.
+template <class A, class B, class S>
+[[nodiscard]] auto smooth_unite(A a, B b, S radius) {
+  return detail::Combined{[a = std::move(a), b = std::move(b), radius](const auto& x) {
+    using Scalar = typename std::decay_t<decltype(x)>::Scalar;
+    return detail::smooth_min<Scalar>(a(x), b(x), static_cast<Scalar>(radius));
+  }};
+}
+
+/// Intersection with a rounded edge; see `smooth_unite`.
+template <class A, class B, class S>
+[[nodiscard]] auto smooth_intersect(A a, B b, S radius) {
+  return complement(smooth_unite(complement(std::move(a)), complement(std::move(b)), radius));
+}
+
+/// `a` without `b`, with a rounded edge; see `smooth_unite`.
+template <class A, class B, class S>
+[[nodiscard]] auto smooth_subtract(A a, B b, S radius) {
+  return complement(smooth_unite(complement(std::move(a)), std::move(b), radius));
+}
+
+/// The shape moved by `by` metres. Exact if the shape is.
+template <class A, class S, int D>
+[[nodiscard]] auto translated(A a, const Vector<S, D>& by) {
+  return detail::Combined{[a = std::move(a), by](const auto& x) { return a(Vector<S, D>(x - by)); }};
+}
+
+/// The shape turned by the rotation matrix `rotation` about the point `pivot`. Exact if the shape
+/// is and `rotation` is orthogonal.
+template <class A, class S, int D>
+[[nodiscard]] auto rotated(A a, const Matrix<S, D>& rotation, const Vector<S, D>& pivot) {
+  return detail::Combined{[a = std::move(a), rotation, pivot](const auto& x) {
+    return a(Vector<S, D>(pivot + rotation.transpose() * (x - pivot)));
+  }};
+}
+
+/// The shape turned about the origin.
+template <class A, class S, int D>
+[[nodiscard]] auto rotated(A a, const Matrix<S, D>& rotation) {
+  return rotated(std::move(a), rotation, Vector<S, D>(Vector<S, D>::Zero()));
+}
+
+/// The half of the shape where coordinate `axis` exceeds `at`, and its mirror image: left and right
+/// from one description.
+template <class A, class S = double>
+[[nodiscard]] auto mirrored(A a, int axis, S at = S(0)) {
+  return detail::Combined{[a = std::move(a), axis, at](const auto& x) {
+    using Scalar = typename std::decay_t<decltype(x)>::Scalar;
+    auto folded = x;
+    folded[axis] = static_cast<Scalar>(at) + std::abs(x[axis] - static_cast<Scalar>(at));
+    return a(folded);
+  }};
+}
+
+/// The shape seen through `map`, a callable from positions to positions: `shape(map(x))`. The sign
+/// is exact, the distance only as far as the map keeps lengths.
+template <class A, class Map>
+[[nodiscard]] auto warped(A a, Map map) {
+  return detail::Combined{[a = std::move(a), map = std::move(map)](const auto& x) { return a(map(x)); }};
+}
+
+}  // namespace hmps

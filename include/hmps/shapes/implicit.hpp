@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+
+#include "hmps/core/types.hpp"
+
+namespace hmps {
+
+/// A shape in `D` dimensions. Valid expression: `shape(x)` with `x` a `Vector<S, D>` in metres; the
+/// result is negative inside, positive outside, and about the signed distance to the surface in
+/// metres. Satisfied by the primitives and combinators of this folder and by any lambda. Shapes are
+/// plain values that capture by value, so a composed shape inlines to straight code.
+///
+/// *Exact* shapes return the Euclidean distance everywhere; *first-order* ones return f / |grad f|
+/// of an implicit function f: the zero surface is exact, the distance near it is right to first
+/// order, far away it is only a sign. `offset`, `layer` and `shell` of a first-order shape are
+/// therefore about right while the offset is small beside the radius of curvature.
+template <class F, class S, int D>
+concept Shape = requires(const F& shape, const Vector<S, D>& x) {
+  { shape(x) } -> std::convertible_to<S>;
+};
+
+namespace detail {
+/// Parameter in [0, 1] of the point of the segment `from`, `to` that is nearest to `x`; 0 when the
+/// segment is a point.
+template <class S, int D>
+[[nodiscard]] S nearest_on_segment(const Vector<S, D>& from, const Vector<S, D>& to, const Vector<S, D>& x) {
+  const Vector<S, D> along = to - from;
+  const S length = along.squaredNorm();
+  return length > S(0) ? std::clamp((x - from).dot(along) / length, S(0), S(1)) : S(0);
+}
+}  // namespace detail
+
+/// Disc or ball. Exact.
+template <class S, int D>
+struct Ball {
+  Vector<S, D> centre = Vector<S, D>::Zero();  ///< m
+  S radius{};                                  ///< m, positive
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const { return (x - centre).norm() - radius; }
+};
+
+/// Ellipse or ellipsoid with axes along the coordinate axes (turn it with `rotated`). First order.
+template <class S, int D>
+struct Ellipsoid {
+  Vector<S, D> centre = Vector<S, D>::Zero();  ///< m
+  Vector<S, D> half_axes;                      ///< m, each positive
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    const Vector<S, D> scaled = (x - centre).cwiseQuotient(half_axes);
+    const S level = scaled.norm();
+    const S slope = scaled.cwiseQuotient(half_axes).norm();
+    return slope > S(0) ? level * (level - S(1)) / slope : -half_axes.minCoeff();
+  }
+};
+
+/// Axis-parallel rectangle or box, also the region in which a lattice is filled. Exact.
+template <class S, int D>
+struct Box {
+  Vector<S, D> lower;  ///< m
+  Vector<S, D> upper;  ///< m, each component above that of `lower`
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    const Vector<S, D> beyond = (lower - x).cwiseMax(x - upper);
+    return beyond.cwiseMax(S(0)).norm() + std::min(beyond.maxCoeff(), S(0));
+  }
+};
+
+/// Everything behind the plane (line in 2D) through `point` with `outward` normal of any length.
+/// Exact.
+template <class S, int D>
+struct HalfSpace {
+  Vector<S, D> point = Vector<S, D>::Zero();  ///< m
+  Vector<S, D> outward;                       ///< not zero
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const { return outward.dot(x - point) / outward.norm(); }
+};
+
+/// All points nearer than `radius` to the segment. Exact.
+template <class S, int D>
+struct Capsule {
+  Vector<S, D> from;  ///< m
+  Vector<S, D> to;    ///< m
+  S radius{};         ///< m, positive
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    const S s = detail::nearest_on_segment(from, to, x);
+    return (x - from - s * (to - from)).norm() - radius;
+  }
+};
+
+/// Convex hull of two balls: a cone with round ends. Exact. When one ball holds the other, the
+/// larger one.
+template <class S, int D>
+struct RoundCone {
+  Vector<S, D> from;  ///< m
+  Vector<S, D> to;    ///< m
+  S radius_from{};    ///< m, at `from`
+  S radius_to{};      ///< m, at `to`
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    const Vector<S, D> along = to - from;
+    const S length = along.norm();
+    const S fall = radius_from - radius_to;
+    if (length <= std::abs(fall))
+      return radius_from > radius_to ? (x - from).norm() - radius_from : (x - to).norm() - radius_to;
+    // In the half plane of the axis: (axial, radial) from the first centre; `sine` is that of half
+    // the opening angle, and the foot of the perpendicular on the mantle decides the piece.
+    const Vector<S, D> arm = x - from;
+    const S axial = arm.dot(along) / length;
+    const S radial = std::sqrt(std::max(arm.squaredNorm() - axial * axial, S(0)));
+    const S sine = fall / length;
+    const S cosine = std::sqrt(S(1) - sine * sine);
+    const S foot = axial * cosine - radial * sine;
+    if (foot <= S(0)) return arm.norm() - radius_from;
+    if (foot >= length * cosine) return (x - to).norm() - radius_to;
+    return axial * sine + radial * cosine - radius_from;
+  }
+};
+
+/// Cylinder with flat ends around the segment. 3D: a cylinder; 2D: a rectangle at any angle. Exact.
+template <class S, int D>
+struct Cylinder {
+  Vector<S, D> from;  ///< m
+  Vector<S, D> to;    ///< m, not `from`
+  S radius{};         ///< m, positive
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    const Vector<S, D> along = to - from;
+    const S length = along.norm();
+    const Vector<S, D> arm = x - from;
+    const S axial = arm.dot(along) / length;
+    const S side = (arm - axial / length * along).norm() - radius;
+    const S end = std::max(-axial, axial - length);
+    return Vector<S, 2>(std::max(side, S(0)), std::max(end, S(0))).norm() + std::min(std::max(side, end), S(0));
+  }
+};
+
+/// Torus around the axis z (turn it with `rotated`). Exact.
+template <class S>
+struct Torus {
+  Vector<S, 3> centre = Vector<S, 3>::Zero();  ///< m
+  S ring{};                                    ///< m, radius of the centre line
+  S radius{};                                  ///< m, of the tube
+  [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
+    const Vector<S, 3> arm = x - centre;
+    return std::hypot(std::hypot(arm[0], arm[1]) - ring, arm[2]) - radius;
+  }
+};
+
+}  // namespace hmps

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/implicit.hpp"
+
+namespace hmps {
+
+namespace detail {
+
+/// The sites of a simple cubic lattice in a box: `first[c] <= index < first[c] + count[c]`.
+/// Coordinates are computed in double for every scalar, so that a site has one position however
+/// large the box.
+template <int D>
+struct LatticeSites {
+  double spacing = 0;
+  Vector<double, D> origin;
+  Vector<std::int64_t, D> first;
+  Vector<std::int64_t, D> count;
+
+  [[nodiscard]] double coordinate(int axis, std::int64_t k) const {
+    return origin[axis] + spacing * static_cast<double>(first[axis] + k);
+  }
+};
+
+/// Sites that may be sampled at most: 2^33, about ten minutes of sampling. More is a spacing in
+/// millimetres or a box in micrometres.
+inline constexpr double most_sites = 8589934592.0;
+
+template <class S, int D>
+[[nodiscard]] LatticeSites<D> lattice_sites(const Box<S, D>& box, S spacing, const Vector<S, D>& origin) {
+  require(std::isfinite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
+          "; give a positive number of metres");
+  require(origin.allFinite(), "hmps: the lattice origin is (", origin.transpose(), "); give finite metres");
+  require(box.lower.allFinite() && box.upper.allFinite() && (box.lower.array() <= box.upper.array()).all(),
+          "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+          "); give finite corners in metres, the lower one first");
+  LatticeSites<D> sites;
+  sites.spacing = static_cast<double>(spacing);
+  sites.origin = origin.template cast<double>();
+  // A box that ends on a site should hold it, whichever way its coordinates were rounded.
+  constexpr double slack = 1e-5;
+  double product = 1;
+  for (int c = 0; c < D; ++c) {
+    const double low = std::ceil((static_cast<double>(box.lower[c]) - sites.origin[c]) / sites.spacing - slack);
+    const double high = std::floor((static_cast<double>(box.upper[c]) - sites.origin[c]) / sites.spacing + slack);
+    product *= std::max(high - low + 1, 0.0);
+    require(std::max(std::abs(low), std::abs(high)) < 9e15 && product <= most_sites, "hmps: the box holds about ",
+            product, " lattice sites of spacing ", spacing,
+            " m or more; give box and spacing in metres, or a larger spacing");
+    sites.first[c] = static_cast<std::int64_t>(low);
+    sites.count[c] = static_cast<std::int64_t>(std::max(high - low + 1, 0.0));
+  }
+  return sites;
+}
+
+/// Joins the points found slab by slab and refuses more than an `Index` can name.
+template <class S, int D, Executor E>
+[[nodiscard]] std::vector<Vector<S, D>> joined(std::vector<std::vector<Vector<S, D>>>& slabs, const E& execute) {
+  std::vector<std::size_t> start(slabs.size() + 1, 0);
+  for (std::size_t k = 0; k < slabs.size(); ++k) start[k + 1] = start[k] + slabs[k].size();
+  require(start.back() < std::numeric_limits<Index>::max(), "hmps: the shape holds ", start.back(),
+          " particles, more than an index of 32 bits can name; give a larger spacing");
+  std::vector<Vector<S, D>> points(start.back());
+  execute(slabs.size(), [&](std::size_t k) {
+    std::copy(slabs[k].begin(), slabs[k].end(), points.begin() + static_cast<std::ptrdiff_t>(start[k]));
+    std::vector<Vector<S, D>>().swap(slabs[k]);
+  });
+  return points;
+}
+
+}  // namespace detail
+
+/// The sites origin + spacing (i, j, k), i, j, k integers, of a simple cubic (2D: square) lattice
+/// that lie in `box` and inside `shape` (shape(x) < 0), as in section 3.1 of the paper. The last
+/// coordinate runs fastest, so that rows along z are contiguous. Every site of the box is sampled
+/// once; slabs of constant x run through `execute`, and the result does not depend on it.
+///
+/// `spacing` in metres; the box need not touch sites. Throws `InputError` for a spacing that is not
+/// positive, a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, and a
+/// shape that returns NaN, with the position.
+template <class F, class S, int D, Executor E = Serial>
+requires Shape<F, S, D>
+[[nodiscard]] std::vector<Vector<S, D>> fill_lattice(
+    const F& shape, const Box<S, D>& box, std::type_identity_t<S> spacing,
+    const std::type_identity_t<Vector<S, D>>& origin = Vector<S, D>::Zero(), const E& execute = {}) {
+  static_assert(D == 2 || D == 3, "hmps: lattices have 2 or 3 dimensions");
+  const auto sites = detail::lattice_sites<S, D>(box, spacing, origin);
+  std::vector<std::vector<Vector<S, D>>> slabs(static_cast<std::size_t>(sites.count[0]));
+  execute(slabs.size(), [&](std::size_t slab) {
+    std::vector<Vector<S, D>> found;
+    Vector<S, D> x;
+    x[0] = static_cast<S>(sites.coordinate(0, static_cast<std::int64_t>(slab)));
+    const auto row = [&] {
+      for (std::int64_t k = 0; k < sites.count[D - 1]; ++k) {
+        x[D - 1] = static_cast<S>(sites.coordinate(D - 1, k));
+        const S distance = static_cast<S>(shape(x));
+        if (distance < S(0))
+          found.push_back(x);
+        else if (distance != distance)
+          throw InputError(
+              message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+      }
+    };
+    if constexpr (D == 3) {
+      for (std::int64_t j = 0; j < sites.count[1]; ++j) {
+        x[1] = static_cast<S>(sites.coordinate(1, j));
+        row();
+      }
+    } else {
+      row();
+    }
+    slabs[slab] = std::move(found);
+  });
+  return detail::joined<S, D>(slabs, execute);
+}
+
+}  // namespace hmps

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/implicit.hpp"
+
+namespace hmps {
+
+/// Signed distance, to first order, of the point (u, v) to the superellipse
+/// |u / a|^n + |v / b|^n = 1 with half axes a, b > 0 (m) and exponent n >= 1: 1 is a rhombus, 2 an
+/// ellipse, large n a rectangle.
+template <class S>
+[[nodiscard]] S superellipse(S u, S v, S a, S b, S n) {
+  const S p = std::abs(u) / a;
+  const S q = std::abs(v) / b;
+  const S level = n == S(2) ? std::sqrt(p * p + q * q)
+                            : std::max(p, q) * std::pow(S(1) + std::pow(std::min(p, q) / std::max(p, q), n), S(1) / n);
+  if (!(std::max(p, q) > std::numeric_limits<S>::epsilon())) return -std::min(a, b);
+  const S slope = std::hypot(std::pow(p / level, n - S(1)) / a, std::pow(q / level, n - S(1)) / b);
+  return (level - S(1)) / slope;
+}
+
+/// Centre and radius of a `Tube` at one point of its centre line.
+template <class S, int D>
+struct TubeRow {
+  Vector<S, D> centre;  ///< m
+  S radius{};           ///< m, positive
+};
+
+/// Tube along a polyline with radii interpolated between its points and round ends: a union of
+/// `RoundCone`s, exact outside.
+template <class S, int D>
+class Tube {
+ public:
+  /// Throws `InputError` without rows, or at a row that is not finite or has no positive radius.
+  explicit Tube(std::vector<TubeRow<S, D>> rows) {
+    require(!rows.empty(), "hmps: a tube needs at least one row of centre and radius");
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      require(rows[k].centre.allFinite() && std::isfinite(rows[k].radius) && rows[k].radius > S(0), "hmps: row ", k,
+              " of a tube has radius ", rows[k].radius, " at (", rows[k].centre.transpose(),
+              "); give finite centres and positive radii in metres");
+    if (rows.size() == 1) rows.push_back(rows.front());
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k)
+      pieces_.push_back({rows[k].centre, rows[k + 1].centre, rows[k].radius, rows[k + 1].radius});
+  }
+
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    S least = pieces_.front()(x);
+    for (std::size_t k = 1; k < pieces_.size(); ++k) least = std::min(least, pieces_[k](x));
+    return least;
+  }
+
+ private:
+  std::vector<RoundCone<S, D>> pieces_;
+};
+
+/// Section of a `Stack` at one level.
+template <class S>
+struct StackRow {
+  S level{};               ///< m, coordinate along the axis of the stack
+  Vector<S, 2> centre;     ///< m, in the two other coordinates, in the order x, y, z
+  Vector<S, 2> half_axes;  ///< m, each positive, in the same order
+};
+
+/// Superelliptic sections stacked along a coordinate axis, centre and half axes interpolated
+/// linearly between the rows, with flat ends at the first and the last level. First order within
+/// the sections; the slope of the mantle along the axis is not counted.
+template <class S>
+class Stack {
+ public:
+  /// Rows in any order of levels; `axis` 0, 1 or 2; `exponent` as for `superellipse`. Throws
+  /// `InputError` for fewer than two rows, equal levels, or a row that is not finite and positive.
+  explicit Stack(std::vector<StackRow<S>> rows, S exponent = S(2), int axis = 2)
+      : rows_(std::move(rows)), exponent_(exponent), axis_(axis) {
+    require(rows_.size() >= 2, "hmps: a stack has ", rows_.size(), " rows; give at least two levels");
+    require(exponent >= S(1), "hmps: a stack has the exponent ", exponent,
+            "; give one from 1 (rhombus) on, 2 is an ellipse");
+    require(axis >= 0 && axis <= 2, "hmps: a stack has the axis ", axis, "; give 0, 1 or 2 for x, y or z");
+    std::sort(rows_.begin(), rows_.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const auto& row = rows_[k];
+      require(std::isfinite(row.level) && row.centre.allFinite() && row.half_axes.allFinite() &&
+                  row.half_axes.minCoeff() > S(0),
+              "hmps: the stack's section at level ", row.level, " has half axes ", row.half_axes.transpose(),
+              "; give finite centres and positive half axes in metres");
+      require(k == 0 || rows_[k - 1].level < row.level, "hmps: a stack has two sections at level ", row.level,
+              "; give each level once");
+    }
+  }
+
+  [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
+    const S level = x[axis_];
+    const StackRow<S> row = section(level);
+    const int first = axis_ == 0 ? 1 : 0;
+    const int second = axis_ == 2 ? 1 : 2;
+    const S inside = superellipse(x[first] - row.centre[0], x[second] - row.centre[1], row.half_axes[0],
+                                  row.half_axes[1], exponent_);
+    const S end = std::max(rows_.front().level - level, level - rows_.back().level);
+    return std::max(inside, end);
+  }
+
+  /// The interpolated section at `level`; the end rows beyond the ends.
+  [[nodiscard]] StackRow<S> section(S level) const {
+    if (level <= rows_.front().level) return rows_.front();
+    if (level >= rows_.back().level) return rows_.back();
+    const auto above =
+        std::upper_bound(rows_.begin(), rows_.end(), level, [](S l, const auto& row) { return l < row.level; });
+    const auto& b = *above;
+    const auto& a = *(above - 1);
+    const S s = (level - a.level) / (b.level - a.level);
+    return {level, a.centre + s * (b.centre - a.centre), a.half_axes + s * (b.half_axes - a.half_axes)};
+  }
+
+ private:
+  std::vector<StackRow<S>> rows_;
+  S exponent_;
+  int axis_;
+};
+
+/// Section of a `Plate` at one point of its centre line.
+template <class S>
+struct PlateRow {
+  Vector<S, 3> centre;  ///< m
+  S half_width{};       ///< m, along `across`, positive
+  S half_thickness{};   ///< m, normal to the centre line and to `across`, positive
+  S bow{};              ///< m, by which the edges |u| = half_width stand ahead of the middle, along across x tangent
+};
+
+/// Plate or strip swept along a polyline that lies in a plane normal to `across`: superelliptic
+/// sections `half_width` by `half_thickness`, interpolated linearly, optionally bowed by
+/// bow (u / half_width)^2 like a trough, with flat ends. First order near the surface.
+template <class S>
+class Plate {
+ public:
+  /// Throws `InputError` for fewer than two rows, coincident neighbouring centres, a centre line
+  /// that leaves its plane, or a row that is not finite and positive.
+  explicit Plate(std::vector<PlateRow<S>> rows, const Vector<S, 3>& across = Vector<S, 3>::UnitY(), S exponent = S(2))
+      : rows_(std::move(rows)), across_(across.normalized()), exponent_(exponent) {
+    require(rows_.size() >= 2, "hmps: a plate has ", rows_.size(),
+            " rows; give at least two points of its centre line");
+    require(exponent >= S(1), "hmps: a plate has the exponent ", exponent,
+            "; give one from 1 (rhombus) on, 2 is an ellipse");
+    require(across_.allFinite() && across_.norm() > S(0.5), "hmps: the width direction of a plate is (",
+            across.transpose(), "); give a vector that is not zero");
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const auto& row = rows_[k];
+      require(row.centre.allFinite() && std::isfinite(row.bow) && row.half_width > S(0) && row.half_thickness > S(0),
+              "hmps: row ", k, " of a plate has half width ", row.half_width, " and half thickness ",
+              row.half_thickness, "; give finite centres and positive sizes in metres");
+      if (k == 0) continue;
+      const Vector<S, 3> along = row.centre - rows_[k - 1].centre;
+      require(along.norm() > S(0), "hmps: rows ", k - 1, " and ", k,
+              " of a plate have the same centre; give each point once");
+      require(std::abs(along.dot(across_)) <= S(1e-3) * along.norm(),
+              "hmps: the centre line of a plate leaves its plane between rows ", k - 1, " and ", k,
+              "; it must be normal to the width direction (", across_.transpose(), ")");
+    }
+  }
+
+  [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
+    const S u = (x - rows_.front().centre).dot(across_);
+    const Vector<S, 3> flat = x - u * across_;
+    std::size_t piece = 0;
+    S fraction{};
+    S least = std::numeric_limits<S>::max();
+    for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
+      const S s = detail::nearest_on_segment(rows_[k].centre, rows_[k + 1].centre, flat);
+      const S distance = (flat - rows_[k].centre - s * (rows_[k + 1].centre - rows_[k].centre)).squaredNorm();
+      if (distance < least) least = distance, piece = k, fraction = s;
+    }
+    const auto& a = rows_[piece];
+    const auto& b = rows_[piece + 1];
+    const Vector<S, 3> along = (b.centre - a.centre).normalized();
+    const Vector<S, 3> arm = flat - a.centre - fraction * (b.centre - a.centre);
+    const S before = piece == 0 && fraction <= S(0) ? -arm.dot(along) : S(0);
+    const S behind = piece + 2 == rows_.size() && fraction >= S(1) ? arm.dot(along) : S(0);
+    const S end = std::max(before, behind);
+    // Beyond an inner corner the offset is the whole distance to the corner, else its part along
+    // the normal; beyond an end the rest is `end`.
+    const S normal_part = arm.dot(across_.cross(along));
+    const S v = end > S(0) ? normal_part : std::copysign(std::sqrt(least), normal_part);
+    const S width = a.half_width + fraction * (b.half_width - a.half_width);
+    const S thickness = a.half_thickness + fraction * (b.half_thickness - a.half_thickness);
+    const S bow = a.bow + fraction * (b.bow - a.bow);
+    const S lean = u / width;
+    const S section = superellipse(u, v - bow * lean * lean, width, thickness, exponent_);
+    return end > S(0) ? std::max(section, end) : section;
+  }
+
+  /// Length of the centre line from its first row to the nearest point of `x`, in metres: the
+  /// coordinate in which control regions along an organ are laid out.
+  [[nodiscard]] S arc(const Vector<S, 3>& x) const {
+    const Vector<S, 3> flat = x - (x - rows_.front().centre).dot(across_) * across_;
+    S least = std::numeric_limits<S>::max();
+    S length{};
+    S result{};
+    for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
+      const Vector<S, 3> along = rows_[k + 1].centre - rows_[k].centre;
+      const S s = detail::nearest_on_segment(rows_[k].centre, rows_[k + 1].centre, flat);
+      const S distance = (flat - rows_[k].centre - s * along).squaredNorm();
+      if (distance < least) least = distance, result = length + s * along.norm();
+      length += along.norm();
+    }
+    return result;
+  }
+
+ private:
+  std::vector<PlateRow<S>> rows_;
+  Vector<S, 3> across_;
+  S exponent_;
+};
+
+}  // namespace hmps
