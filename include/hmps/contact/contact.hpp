@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hmps/contact/candidates.hpp"
+#include "hmps/contact/master_surface.hpp"
+#include "hmps/contact/metaball.hpp"
+#include "hmps/contact/normal_density.hpp"
+#include "hmps/contact/organ.hpp"
+#include "hmps/contact/penalty.hpp"
+#include "hmps/contact/penetration.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+/// What a scene says about its contacts.
+struct ContactSettings {
+  double spacing;                                             ///< l0 in m.
+  double density;                                             ///< rho in kg/m3.
+  double friction = 0;                                        ///< mu_tan, \paper{23}.
+  PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
+  /// Normal damping as a fraction of the critical 2 sqrt(k rho); beyond the paper, which has none. It
+  /// is cut where it would reverse the closing velocity within a step.
+  double damping = 0;
+  double skin = 0.5;  ///< In spacings: how much motion the candidate lists bear before they are rebuilt.
+};
+
+/// What one evaluation of the contact met.
+template <class S>
+struct ContactReport {
+  std::size_t contacts = 0;    ///< Slaves with p > 0, counted once per organ that they touch.
+  std::size_t sticking = 0;    ///< Of those, the ones whose friction is below its limit.
+  std::size_t deep = 0;        ///< Slaves so deep in a wall that Z^-1 or the normal says nothing any more.
+  S penetration = 0;           ///< The largest p in m.
+  Index deepest = 0;           ///< Its slave.
+  std::size_t candidates = 0;  ///< Slave-master pairs on the lists.
+  std::size_t rebuilds = 0;    ///< How often the lists were built so far.
+};
+
+/// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
+/// reactions and friction. A functor that keeps only the lists of candidates; positions, velocities
+/// and deformation gradients stay with the caller.
+///
+/// Declare organs and the pairs that may touch, then in each step call
+/// `contact(x, v, F, dt, f)` with v = v* of \paper{2}; it ADDS the force density (N/m3) of \paper{43}
+/// to `f`. Views hold all particles; F is read for the slaves and masters only (rotation of a rigid
+/// particle is irrelevant, so it may keep the identity).
+///
+/// Forces of a contact and its reactions sum to zero; their torque does not vanish exactly, since a
+/// reaction acts at the master's centre and not at the touching point (\paper{41, 42}).
+/// Results are the same to the bit for any executor, and do not depend on when lists were built.
+/// Slaves whose normal is undefined (deep inside) get no force and are counted as deep.
+template <class S, int D, Metaball Ball = PaperMetaball, FrictionLaw Friction = CorrectedFriction>
+class MetaballContact {
+  static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
+  using Lists = detail::Candidates<S, D>;
+  using Point = Vector<S, D>;
+  using Tensor = Matrix<S, D>;
+
+ public:
+  /// Throws `InputError` on settings that are not finite or out of range.
+  explicit MetaballContact(const ContactSettings& settings)
+      : settings_(settings), normal_density_(static_cast<S>(settings.spacing)) {
+    require(settings.density > 0 && std::isfinite(settings.density), "hmps: the density for contact is ",
+            settings.density, " kg/m3; give a positive number");
+    require(settings.friction >= 0 && std::isfinite(settings.friction), "hmps: the friction coefficient is ",
+            settings.friction, "; give zero or a positive number");
+    require(settings.damping >= 0 && std::isfinite(settings.damping), "hmps: the contact damping is ", settings.damping,
+            "; give zero or a positive fraction of critical");
+    require(settings.skin > 0 && std::isfinite(settings.skin), "hmps: the skin of the contact lists is ", settings.skin,
+            " spacings; give a positive number, such as 0.5");
+  }
+
+  /// Declares an organ; the number returned names it in `add_pair`. Throws `InputError` if empty.
+  std::size_t add_organ(const Organ& organ) { return lists_.add_organ(organ); }
+
+  /// Declares that two organs may touch. Throws `InputError` where they share a particle or lack slaves
+  /// or masters for their roles. Returns the pair's number.
+  std::size_t add_pair(std::size_t first, std::size_t second, const PairSettings& settings = {}) {
+    return lists_.add_pair(first, second, settings);
+  }
+
+  /// Builds all lists anew at the next call. Not needed after steps in time.
+  void refresh() { lists_.refresh(); }
+
+  [[nodiscard]] const ContactSettings& settings() const { return settings_; }
+  void set_friction(double mu) {
+    require(mu >= 0 && std::isfinite(mu), "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
+    settings_.friction = mu;
+  }
+
+  /// Adds the contact force densities at step `dt` (s) to `f`. Throws `InputError` on views of wrong
+  /// size and a bad step, `StateError` on positions that are not finite.
+  template <class X, class V, class M, class T, Executor E = Serial>
+  ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
+                              double dt, const VectorView<T, D>& f, const E& execute = {}) {
+    require_size(F, x.size(), "deformation gradients");
+    return evaluate(x, v, F, dt, f, execute);
+  }
+
+  /// The same for particles that do not deform.
+  template <class X, class V, class T, Executor E = Serial>
+  ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, double dt,
+                              const VectorView<T, D>& f, const E& execute = {}) {
+    return evaluate(x, v, detail::Undeformed<S, D>{}, dt, f, execute);
+  }
+
+  /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second, in
+  /// the latest call: what the first feels from the second. Particles have the volume l0^D.
+  [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
+    Vector<double, D> sum = Vector<double, D>::Zero();
+    for (const Index r : touching_) {
+      const auto& side = lists_.sides[lists_.rows[r].side];
+      if (side.pair != pair) continue;
+      const Vector<double, D> force = state_[r].force.template cast<double>();
+      sum += side.slaves == lists_.pairs[pair].first ? force : -force;
+    }
+    return sum * std::pow(settings_.spacing, D);
+  }
+
+ private:
+  struct Master {
+    Point x;
+    Tensor B;       // F^-1
+    S compression;  // bound of the largest singular value of B
+  };
+  struct RowState {
+    Point normal, force, slip;  // slip: v_im, then its tangential part
+    S penetration, over_density;
+  };
+  struct Batch {
+    std::size_t count, deep;
+  };
+  static constexpr std::size_t batch = 64;
+
+  template <class X, class V, class G, class T, class E>
+  ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute);
+
+  template <class X, class V, class G>
+  bool touch(std::size_t r, const X& x, const V& v, const G& F, bool& deep);
+
+  template <class V>
+  void resize(const V&);
+
+  ContactSettings settings_;
+  NormalDensity<S, D, Ball> normal_density_;
+  Lists lists_;
+  std::size_t sized_for_ = 0;
+  std::vector<Master> masters_;  // per slot
+  std::vector<S> ball_;          // per candidate: c
+  std::vector<RowState> state_;  // per row
+  std::vector<std::uint8_t> row_hit_, slot_hit_;
+  std::vector<Index> batch_rows_, touching_;
+  std::vector<Batch> batches_;
+  std::vector<S> load_;  // per touched particle: N
+};
+
+}  // namespace hmps
+
+#include "hmps/contact/contact_evaluate.hpp"

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+
+namespace hmps {
+
+/// The function that each particle of a wall spreads around itself. Valid expressions, with
+/// `s = (r / r_e)^2` in `[0, 1]` (the square, so that no root is taken per pair):
+/// - `Ball::radius`: the effective radius in spacings, `r_e / l0`;
+/// - `Ball::value(s)`: c, falling from a positive value at 0 to 0 at 1;
+/// - `Ball::slope(s)`: dc/ds, negative between.
+///
+/// Satisfied by `PaperMetaball` and `SmoothMetaball`. Beyond `r_e` the caller takes zero.
+template <class Ball>
+concept Metaball = requires(double s) {
+  { Ball::radius } -> std::convertible_to<double>;
+  { Ball::value(s) } -> std::convertible_to<double>;
+  { Ball::slope(s) } -> std::convertible_to<double>;
+};
+
+/// c = 1 - (r / r_e)^2 with r_e = 1.75 l0, \paper{26}; c(0) = 1. The gradient of the sum jumps where
+/// a particle enters r_e, so a flat lattice wall is a washboard: at contact height its normal tilts
+/// by up to tan = 0.37.
+struct PaperMetaball {
+  static constexpr double radius = 1.75;
+  template <class S>
+  [[nodiscard]] static constexpr S value(S s) {
+    return S(1) - s;
+  }
+  template <class S>
+  [[nodiscard]] static constexpr S slope(S) {
+    return S(-1);
+  }
+};
+
+/// c = (1 - (r / r_e)^2)^3 with r_e = 2.5 l0: in place of \paper{26} where friction matters. Two
+/// continuous derivatives; over a flat lattice wall the normal tilts by tan = 0.008 at most at
+/// contact height. Reaches 2.9 times as many particles.
+struct SmoothMetaball {
+  static constexpr double radius = 2.5;
+  template <class S>
+  [[nodiscard]] static constexpr S value(S s) {
+    const S u = S(1) - s;
+    return u * u * u;
+  }
+  template <class S>
+  [[nodiscard]] static constexpr S slope(S s) {
+    const S u = S(1) - s;
+    return S(-3) * u * u;
+  }
+};
+
+}  // namespace hmps

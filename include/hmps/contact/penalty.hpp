@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps {
+
+/// The penalty coefficient k in N/m4 (force density per penetration). `ratio` is the paper's choice,
+/// \paper{25}: it makes the wall four times stiffer whenever the step is halved, and with it the
+/// chatter. `fixed` belongs to the scene and lets the step vary; of a `ratio(0.3)` at step dt0 it is
+/// `fixed(0.3 * density / (dt0 * dt0))`. Either way k~ = k dt^2 / rho must stay below 1: the stable
+/// step of the whole falls to about dt_c sqrt(1 - k~).
+class PenaltyStiffness {
+ public:
+  /// k = k~ rho / dt^2. Throws `InputError` unless 0 < k~ < 1.
+  [[nodiscard]] static PenaltyStiffness ratio(double k_tilde) {
+    require(k_tilde > 0 && k_tilde < 1, "hmps: the penalty ratio k~ is ", k_tilde,
+            "; it must lie between 0 and 1 (contact is unstable from 1 on); the paper has 0.3");
+    return {k_tilde, true};
+  }
+  /// k in N/m4. Throws `InputError` unless positive and finite.
+  [[nodiscard]] static PenaltyStiffness fixed(double k) {
+    require(k > 0 && std::isfinite(k), "hmps: the penalty coefficient k is ", k, " N/m4; give a positive number");
+    return {k, false};
+  }
+
+  /// k in N/m4 for density (kg/m3) and step (s). Throws `InputError` where a fixed k is too stiff.
+  [[nodiscard]] double at(double density, double dt) const {
+    if (is_ratio_) return value_ * density / (dt * dt);
+    require(value_ * dt * dt < density, "hmps: a penalty of ", value_, " N/m4 makes k~ = ", value_ * dt * dt / density,
+            " at a step of ", dt, " s; it must be below 1: shorten the step below ", std::sqrt(density / value_),
+            " s or soften the penalty");
+    return value_;
+  }
+
+ private:
+  PenaltyStiffness(double value, bool is_ratio) : value_(value), is_ratio_(is_ratio) {}
+  double value_;
+  bool is_ratio_;
+};
+
+/// Normal force density in N/m3, \paper{22, 39}, to be taken along n_m: k p, and, beyond the paper,
+/// `damping` (N s/m4) times the speed `closing` (m/s) at which wall and slave approach. Never pulls.
+template <class S>
+[[nodiscard]] S normal_force(S k, S penetration, S damping, S closing) {
+  const S f = k * penetration + damping * closing;
+  return f > S(0) ? f : S(0);
+}
+
+/// v_im,tan in m/s, \paper{24}.
+template <class S, int D>
+[[nodiscard]] Vector<S, D> tangential(const Vector<S, D>& velocity, const Vector<S, D>& n) {
+  return velocity - velocity.dot(n) * n;
+}
+
+/// Friction force density in N/m3, \paper{23, 40}: along the tangential velocity `v` of the wall
+/// relative to the slave (so it drags the slave along), of `limit` = mu |f_nor| at most, and of
+/// `stick` v otherwise, where `stick` is a share of rho / dt. Zero where nothing slides.
+template <class S, int D>
+[[nodiscard]] Vector<S, D> friction_force(const Vector<S, D>& v, S stick, S limit) {
+  const S speed = v.norm();
+  if (!(speed > S(0)) || stick * speed <= limit) return stick * v;
+  return (limit / speed) * v;
+}
+
+/// What share of rho v_tan / dt a sticking slave takes in one step. `needs_load`: whether the contact
+/// must first gather how much each particle is acted upon. `share(load)` gets the sum described at
+/// `CorrectedFriction`, and returns the share.
+template <class Law>
+concept FrictionLaw = requires(double load) {
+  { Law::needs_load } -> std::convertible_to<bool>;
+  { Law::share(load) } -> std::convertible_to<double>;
+};
+
+/// The cap of \paper{40} as printed: the slave takes all of the relative velocity. Together with the
+/// reactions \paper{41, 42} and both roles of \paper{43} this over-corrects: a sticking pair of free
+/// particles has its relative tangential velocity multiplied by -3 in each step.
+struct PaperFriction {
+  static constexpr bool needs_load = false;
+  template <class S>
+  [[nodiscard]] static constexpr S share(S) {
+    return S(1);
+  }
+};
+
+/// The cap of \paper{40} divided by what all passes and reactions of one step add up to, so that
+/// sticking brings the relative tangential velocity to zero and never reverses it.
+///
+/// With w_il = c_il / C_i the weights of \paper{41, 42}, let N_p count how strongly particle p is
+/// acted upon: 1 for each contact in which p is the slave, plus w_kp for each slave k that p is a
+/// master of; N_p = 0 where p is prescribed (infinitely heavy). The share of contact i is
+/// 1 / (N_i + sum_l w_il N_l): the absolute row sum of the matrix that maps tangential impulses to
+/// relative velocities. That matrix is symmetric and non-negative, so a step with these shares
+/// multiplies each of its modes by a factor between 0 and 1; where contacts of one sheet slide alike,
+/// the factor is 0. Two free particles in both roles: a quarter; against a prescribed one: a half;
+/// each twice that in one role.
+struct CorrectedFriction {
+  static constexpr bool needs_load = true;
+  template <class S>
+  [[nodiscard]] static constexpr S share(S load) {
+    return load > S(0) ? S(1) / load : S(0);
+  }
+};
+
+}  // namespace hmps
