@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+namespace detail {
+template <class T>
+struct IsScalarView : std::false_type {};
+template <class T>
+struct IsScalarView<ScalarView<T>> : std::true_type {};
+}  // namespace detail
+
+/// A quantity that all particles share (a number) or that each has of its own (a `ScalarView`):
+/// density, volume.
+template <class Q>
+concept PerParticle = std::is_arithmetic_v<Q> || detail::IsScalarView<Q>::value;
+
+/// The value of `quantity` at particle `i`.
+template <PerParticle Q>
+[[nodiscard]] auto at_particle(const Q& quantity, std::size_t i) {
+  if constexpr (std::is_arithmetic_v<Q>) {
+    (void)i;
+    return quantity;
+  } else {
+    return static_cast<typename Q::Scalar>(quantity[i]);
+  }
+}
+
+/// Throws `InputError`, calling the quantity `name` in `unit`, unless it is positive and finite at
+/// every one of the `size` particles.
+template <PerParticle Q>
+void require_positive(const Q& quantity, std::size_t size, const char* name, const char* unit) {
+  if constexpr (std::is_arithmetic_v<Q>) {
+    require(quantity > Q(0) && std::isfinite(static_cast<double>(quantity)), "hmps: the ", name, " is ", quantity, " ",
+            unit, "; it must be positive and finite");
+  } else {
+    require_size(quantity, size, name);
+    for (std::size_t i = 0; i < size; ++i) {
+      const double value = static_cast<double>(quantity[i]);
+      require(value > 0 && std::isfinite(value), "hmps: the ", name, " of particle ", i, " is ", value, " ", unit,
+              "; it must be positive and finite");
+    }
+  }
+}
+
+}  // namespace hmps

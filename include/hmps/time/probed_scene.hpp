@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+/// A force that `stable_step` can probe: `force(x, v, f)` with read-only views of positions (m) and
+/// velocities (m/s) that writes or adds force densities (N/m3) to the view `f`, which comes zeroed.
+/// Satisfied by what `internal_force` returns, or by a lambda that adds several forces.
+template <class Force, class T, int D>
+concept ProbedForce = requires(Force& force, const VectorView<const T, D>& x, const VectorView<T, D>& f) {
+  force(x, x, f);
+};
+
+namespace detail {
+
+/// Noise in (-1, 1) that depends on its number alone (splitmix64).
+[[nodiscard]] inline double noise(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15u;
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
+  number ^= number >> 31;
+  return (static_cast<double>(number >> 11) + 0.5) * 0x1.0p-52 - 1.0;
+}
+
+/// A direction of motion, weighted by the root of the mass, and what stiffness and damping make of it.
+template <int D>
+struct Direction {
+  std::vector<Vector<double, D>> y, stiffness, damping;
+  explicit Direction(std::size_t n)
+      : y(n, Vector<double, D>::Zero()),
+        stiffness(n, Vector<double, D>::Zero()),
+        damping(n, Vector<double, D>::Zero()) {}
+};
+
+/// The linearised force, and the vector algebra of the search for its largest eigenvalue.
+template <class Force, class T, int D, class Rho, class E>
+class ProbedScene {
+ public:
+  using Vectors = std::vector<Vector<double, D>>;
+
+  template <class X, class V>
+  ProbedScene(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& density, double length,
+              const E& execute)
+      : force_(force),
+        density_(density),
+        execute_(execute),
+        size_(x.size()),
+        x_(size_),
+        v_(size_),
+        moved_(size_),
+        plus_(size_),
+        minus_(size_),
+        length_(length),
+        speed_(length) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      x_[i] = x[i];
+      for (int c = 0; c < D; ++c) v_[i][c] = static_cast<T>(v(i, c));
+    }
+  }
+
+  [[nodiscard]] bool damped() const { return damped_; }
+  /// Trial velocities that weigh like the trial displacements do at the step `dt`.
+  void scale_speed(double dt) {
+    if (std::isfinite(dt)) speed_ = length_ / dt;
+  }
+
+  /// Fills what stiffness and damping make of `direction.y`, by central differences of the force.
+  void probe(Direction<D>& direction) {
+    difference(direction.y, x_, length_, direction.stiffness,
+               [&](const auto& trial, auto& f) { call(trial, v_, f); });
+    if (damped_)
+      difference(direction.y, v_, speed_, direction.damping,
+                 [&](const auto& trial, auto& f) { call(x_, trial, f); });
+  }
+  /// No further velocities are tried if the force did not answer to the first.
+  void forget_damping_if_none(const Direction<D>& direction) {
+    damped_ = dot(direction.damping, direction.damping) > 0;
+  }
+
+  [[nodiscard]] double dot(const Vectors& a, const Vectors& b) const {
+    return reduce(
+        size_, 0.0, [&](std::size_t i) { return a[i].dot(b[i]); }, std::plus<>{}, execute_);
+  }
+  /// a <- alpha a + beta b.
+  void blend(Direction<D>& a, double alpha, const Direction<D>& b, double beta) const {
+    execute_(size_, [&](std::size_t i) {
+      a.y[i] = alpha * a.y[i] + beta * b.y[i];
+      a.stiffness[i] = alpha * a.stiffness[i] + beta * b.stiffness[i];
+      a.damping[i] = alpha * a.damping[i] + beta * b.damping[i];
+    });
+  }
+  /// Makes `a` orthogonal to the unit vector `b`.
+  void project_out(Direction<D>& a, const Direction<D>& b) const { blend(a, 1.0, b, -dot(a.y, b.y)); }
+  /// Scales `a` to unit length; false if it has (nearly) vanished against `scale`.
+  [[nodiscard]] bool normalise(Direction<D>& a, double scale) const {
+    const double norm = std::sqrt(dot(a.y, a.y));
+    if (!(norm > 1e-10 * scale)) return false;
+    blend(a, 1.0 / norm, a, 0.0);
+    return true;
+  }
+
+ private:
+  using State = std::vector<Vector<T, D>>;
+
+  void call(const State& x, const State& v, State& f) {
+    execute_(size_, [&](std::size_t i) { f[i].setZero(); });
+    force_(vectors(x), vectors(v), vectors(f));
+  }
+
+  /// image <- - rho^(-1/2) (df/dstate) rho^(-1/2) y.
+  template <class Call>
+  void difference(const Vectors& y, const State& state, double size, Vectors& image, Call&& evaluate) {
+    const double largest = reduce(
+        size_, 0.0, [&](std::size_t i) { return y[i].norm() / root_density(i); },
+        [](double a, double b) { return std::max(a, b); }, execute_);
+    const double h = size / largest;
+    for (const double sign : {1.0, -1.0}) {
+      execute_(size_,
+               [&](std::size_t i) { moved_[i] = state[i] + (y[i] * (sign * h / root_density(i))).template cast<T>(); });
+      evaluate(moved_, sign > 0 ? plus_ : minus_);
+    }
+    execute_(size_, [&](std::size_t i) {
+      image[i] = (minus_[i].template cast<double>() - plus_[i].template cast<double>()) / (2 * h * root_density(i));
+    });
+    if (std::isfinite(dot(image, image))) return;
+    for (std::size_t i = 0; i < size_; ++i)
+      if (!std::isfinite(image[i].squaredNorm()))
+        throw StateError(message("hmps: stable_step finds a force on particle ", i, " that is not finite, ",
+                                 plus_[i].transpose(),
+                                 " N/m3; look at its det F, and at x, v and the parameters of its law"));
+  }
+
+  [[nodiscard]] double root_density(std::size_t i) const {
+    return std::sqrt(static_cast<double>(at_particle(density_, i)));
+  }
+
+  Force& force_;
+  const Rho& density_;
+  const E& execute_;
+  std::size_t size_;
+  State x_, v_, moved_, plus_, minus_;
+  double length_, speed_;
+  bool damped_ = true;
+};
+
+}  // namespace detail
+
+}  // namespace hmps

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/view.hpp"
+
+/// Symplectic Euler with contact between the half steps, \paper{2, 3, 4}, as verbs to compose:
+///
+///     force(x, v, f);          kick(v, f, rho, dt);          // v* of Eq. (2)
+///     contact(x, v, F, f);     kick(v, f, rho, dt);          // Eq. (3)
+///     drift(x, v, dt);                                       // Eq. (4)
+///
+/// The order of the calls is the scheme: another scheme is another order. No verb knows a force.
+/// Every particle moves; whatever has a forced displacement gets its velocity prescribed between the
+/// last kick and the drift.
+namespace hmps {
+
+namespace detail {
+inline void require_step(double dt) {
+  require(dt > 0 && std::isfinite(dt), "hmps: the time step is ", dt,
+          " s; it must be positive and finite (stable_step estimates the largest stable one)");
+}
+}  // namespace detail
+
+/// Adds to the velocities what the force densities give in the time `dt`, \paper{2} and \paper{3}:
+/// v <- v + f dt / rho. The mass cancels.
+///
+/// @param v    velocities in m/s, changed
+/// @param f    force densities in N/m3
+/// @param rho  density in kg/m3, one number or a `ScalarView` with one per particle
+/// @param dt   time step in s, positive
+/// Throws `InputError` for views of different sizes, a density or a step that is not positive.
+template <class T, class U, int D, PerParticle Rho, Executor E = Serial>
+void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, double dt, const E& execute = {}) {
+  static_assert(!std::is_const_v<T>, "hmps: kick changes the velocities; give it a writable view of them");
+  using Real = std::common_type_t<T, std::remove_const_t<U>>;
+  require_size(f, v.size(), "force densities");
+  require_positive(rho, v.size(), "density", "kg/m3");
+  detail::require_step(dt);
+  execute(v.size(), [&](std::size_t i) {
+    const Real factor = static_cast<Real>(dt / static_cast<double>(at_particle(rho, i)));
+    for (int c = 0; c < D; ++c) v(i, c) = static_cast<T>(v(i, c) + factor * f(i, c));
+  });
+}
+
+/// Moves the positions by the velocities for the time `dt`, \paper{4}: x <- x + v dt.
+///
+/// In float the increment v dt of a small step is a few units in the last place of x, and what rounding drops adds up:
+/// use the compensated `drift` below, or positions in double, for long runs.
+///
+/// @param x   positions in m, changed
+/// @param v   velocities in m/s
+/// @param dt  time step in s, positive
+/// Throws `InputError` for views of different sizes or a step that is not positive.
+template <class T, class U, int D, Executor E = Serial>
+void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, const E& execute = {}) {
+  static_assert(!std::is_const_v<T>, "hmps: drift changes the positions; give it a writable view of them");
+  using Real = std::common_type_t<T, std::remove_const_t<U>>;
+  require_size(v, x.size(), "velocities");
+  detail::require_step(dt);
+  execute(x.size(), [&](std::size_t i) {
+    for (int c = 0; c < D; ++c) x(i, c) = static_cast<T>(x(i, c) + v(i, c) * static_cast<Real>(dt));
+  });
+}
+
+/// `drift` that remembers in `carry` what rounding dropped and adds it in the next step (Kahan's
+/// summation), so that the error of x stays at about one rounding of x, and one rounding of the path that it has
+/// travelled, however many steps are made.
+///
+/// @param carry  in m, what x is ahead of the exact sum; zero at the start, kept by the caller from
+///               step to step, and part of what a checkpoint saves
+/// A translation unit compiled with -ffast-math drops the compensation.
+template <class T, class U, int D, Executor E = Serial>
+void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, const VectorView<T, D>& carry,
+           const E& execute = {}) {
+  static_assert(!std::is_const_v<T>, "hmps: drift changes the positions; give it a writable view of them");
+  require_size(v, x.size(), "velocities");
+  require_size(carry, x.size(), "carries");
+  detail::require_step(dt);
+  execute(x.size(), [&](std::size_t i) {
+    for (int c = 0; c < D; ++c) {
+      const T old = x(i, c);
+      const T increment = static_cast<T>(static_cast<double>(v(i, c)) * dt - static_cast<double>(carry(i, c)));
+      const T moved = old + increment;
+      carry(i, c) = (moved - old) - increment;
+      x(i, c) = moved;
+    }
+  });
+}
+
+}  // namespace hmps
