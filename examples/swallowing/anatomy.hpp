@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <hmps/shapes/combine.hpp>
+#include <hmps/shapes/implicit.hpp>
+#include <hmps/shapes/sweep.hpp>
+#include <numbers>
+#include <vector>
+
+#include "organs.hpp"
+
+/// The organs of the swallow as implicit shapes.
+///
+/// Millimetres and degrees; x points to the back, z to the head, y = 0 is the midsagittal plane. The
+/// CT surfaces of the paper are not public: dimensions come from the literature where docs/swallowing
+/// says so, the rest was drawn. Soft sheets are 4.8 mm thick (the pharyngeal wall measures 4.8 mm at
+/// its sides and 3.8 mm behind; an epiglottis with its mucosa 4.7 to 6.8 mm), which is two particles
+/// at the coarsest spacing of 2.4 mm; in millimetres whatever the spacing, so that refining the
+/// lattice does not change the body.
+namespace swallowing {
+
+using Point = hmps::Vector<double, 3>;
+
+/// Rows of numbers, interpolated linearly in the first column and held constant beyond its ends.
+/// The first column ascends.
+template <std::size_t N>
+struct Rows {
+  std::vector<std::array<double, N>> rows;
+  [[nodiscard]] std::array<double, N> operator()(double at) const {
+    if (at <= rows.front()[0]) return rows.front();
+    if (at >= rows.back()[0]) return rows.back();
+    const auto above = std::upper_bound(rows.begin(), rows.end(), at, [](double a, const auto& r) { return a < r[0]; });
+    const auto& b = *above;
+    const auto& a = *(above - 1);
+    const double s = (at - a[0]) / (b[0] - a[0]);
+    std::array<double, N> row;
+    for (std::size_t c = 0; c < N; ++c) row[c] = a[c] + s * (b[c] - a[c]);
+    return row;
+  }
+};
+
+inline constexpr double wall = 4.8;  ///< mm, thickness of the soft sheets
+
+/// The epiglottis: a leaf that stands on the inner front of the larynx and leans back, its edges set
+/// back, 36 mm along its midline (literature: arc 37, chord 35).
+struct Epiglottis {
+  static constexpr double length = 36;
+  hmps::Plate<double> leaf{rows(), Point::UnitY(), 2.0};
+
+  /// Point of the midline at `arc` mm from the base.
+  [[nodiscard]] static Point midline(double arc) {
+    // The tangent turns from 76 to 62 degrees above the horizontal.
+    Point p(-10.3, 0, 12.6);
+    constexpr int steps = 72;
+    for (int k = 0; k < steps; ++k) {
+      const double angle = (76 - 14 * (k + 0.5) / steps * arc / length) * std::numbers::pi / 180;
+      p += arc / steps * Point(std::cos(angle), 0, std::sin(angle));
+    }
+    return p;
+  }
+  [[nodiscard]] static double half_width(double arc) {
+    const double s = std::clamp(arc / (0.6 * length), 0.0, 1.0);
+    if (s < 1) return 6 + 6 * s * s * (3 - 2 * s);
+    return 12 * std::sqrt(1 - std::pow((arc / length - 0.6) / 0.42, 3));
+  }
+  [[nodiscard]] static std::vector<hmps::PlateRow<double>> rows() {
+    std::vector<hmps::PlateRow<double>> rows;
+    for (int k = 0; k <= 24; ++k) {
+      const double arc = length * k / 24;
+      rows.push_back({midline(arc), half_width(arc), wall / 2, 0});
+    }
+    return rows;
+  }
+  [[nodiscard]] double arc(const Point& x) const { return leaf.arc(x); }
+  /// Flat faces and square edges: a superelliptic section would thin the edges to one particle.
+  [[nodiscard]] double operator()(const Point& x) const {
+    if (std::abs(x[1]) > 13 || x[0] < -16 || x[0] > 12 || x[2] < 10 || x[2] > 54) return 1;
+    const double s = leaf.arc(x);
+    const Point centre = midline(s);
+    const double angle = (76 - 14 * s / length) * std::numbers::pi / 180;
+    const double ahead = (x[0] - centre[0]) * std::cos(angle) + (x[2] - centre[2]) * std::sin(angle);
+    const double behind = (x[0] - centre[0]) * std::sin(angle) - (x[2] - centre[2]) * std::cos(angle);
+    const double normal = behind - 0.012 * x[1] * x[1];
+    return std::max({std::abs(normal) - wall / 2, std::abs(x[1]) - half_width(s), std::abs(ahead) - 0.3});
+  }
+};
+
+/// The tongue: a shell, its inside is left out as in the paper. In the midsagittal plane a polar
+/// curve about `centre`, angles from 0 at the back over 90 at the top.
+struct Tongue {
+  Point centre{-36, 0, 55};
+  /// angle, radius of the surface, half width, thickness of the shell
+  Rows<4> profile{{{-66, 31.5, 18, 9.6},
+                   {-60, 31.4, 19, 9.6},
+                   {-44, 31, 21, 9.6},
+                   {-25, 30.4, 22.5, 9.6},
+                   {0, 30.7, 23.5, 9.6},
+                   {10, 31.2, 23.5, 9.6},
+                   {20, 32.4, 23.5, 9.6},
+                   {33.5, 34.6, 23.5, 9.6},
+                   {47, 36.5, 23, 9},
+                   {62, 37.4, 22.5, 7},
+                   {90, 36.8, 22, 5.4},
+                   {118, 38, 20.5, 5.4},
+                   {137, 40.7, 18, 5.4},
+                   {150.6, 42.8, 14, 5.4},
+                   {158, 43, 11, 5.4}}};
+  struct Polar {
+    double angle, radius;
+    std::array<double, 4> row;
+  };
+  [[nodiscard]] Polar polar(const Point& x) const {
+    const double angle = std::atan2(x[2] - centre[2], x[0] - centre[0]) * 180 / std::numbers::pi;
+    return {angle, std::hypot(x[0] - centre[0], x[2] - centre[2]), profile(angle)};
+  }
+  [[nodiscard]] double operator()(const Point& x) const {
+    const auto [angle, radius, row] = polar(x);
+    if (angle < -64 || angle > 152) return 1;
+    const auto [_, R, W, t] = row;
+    const double outer = hmps::superellipse(radius, x[1], R, W, 2.6);
+    const double inner = hmps::superellipse(radius, x[1], R - t, W - t, 2.6);
+    return std::max({outer, -inner, R - t - 5 - radius});
+  }
+};
+
+/// The soft palate with the uvula: from the hard palate backwards and down.
+struct SoftPalate {
+  hmps::Plate<double> velum{{{Point(-29, 0, 97.2), 18, 2.6, 0},
+                             {Point(-21, 0, 95.8), 17.5, 3.2, 0},
+                             {Point(-14, 0, 93.4), 17, 3.9, 0},
+                             {Point(-8, 0, 89.6), 16.5, 4.1, 0},
+                             {Point(-3.4, 0, 84.4), 13.5, 3.8, 0},
+                             {Point(-1, 0, 79), 8, 3.4, 0},
+                             {Point(0.4, 0, 74.6), 5.2, 3.2, 0},
+                             {Point(1, 0, 71), 4.6, 2.8, 0}},
+                            Point::UnitY(),
+                            3.0};
+  [[nodiscard]] double arc(const Point& x) const { return velum.arc(x); }
+  [[nodiscard]] double operator()(const Point& x) const { return velum(x); }
+};
+
+/// The hard palate: a vault with the alveolar ridge in front.
+struct HardPalate {
+  /// x, height of the middle surface in the midline, half width, depth of the vault
+  Rows<4> profile{{{-78, 78.3, 7, 1.5},
+                   {-72, 85.3, 10, 5},
+                   {-67, 89.3, 13, 9},
+                   {-60, 93.5, 16.5, 12},
+                   {-54, 96.4, 18.5, 13},
+                   {-46, 97.8, 19.5, 13.5},
+                   {-36, 98.4, 20, 13.5},
+                   {-25, 98.2, 20, 13.5}}};
+  [[nodiscard]] double operator()(const Point& x) const {
+    const auto height = [this](double u, double v) {
+      const auto [_, z, w, drop] = profile(u);
+      return z - drop * std::pow(std::min(1.25, std::abs(v) / w), 3);
+    };
+    constexpr double e = 0.1;
+    const double du = (height(x[0] + e, x[1]) - height(x[0] - e, x[1])) / (2 * e);
+    const double dv = (height(x[0], x[1] + e) - height(x[0], x[1] - e)) / (2 * e);
+    const double distance = (x[2] - height(x[0], x[1])) / std::sqrt(1 + du * du + dv * dv);
+    return std::max({std::abs(distance) - wall / 2, std::abs(x[1]) - 1.1 * profile(x[0])[2], -76 - x[0], x[0] + 25});
+  }
+};
+
+/// Larynx and upper trachea: a tube with the glottis, cut by the oblique rim of the inlet, and the
+/// arytenoids on its back.
+struct Larynx {
+  static constexpr double bottom = -34;
+  hmps::Stack<double> airway{{{-50, {-1.3, 0}, {7.2, 7.2}},
+                              {-14, {-1.3, 0}, {7.1, 7.1}},
+                              {-8, {-1.3, 0}, {7.0, 6.6}},
+                              {-3, {-1.3, 0}, {6.8, 4.2}},
+                              {2, {-1.3, 0}, {6.8, 4.4}},
+                              {7, {-1.3, 0}, {7.1, 6.6}},
+                              {40, {-1.3, 0}, {7.1, 7.1}}}};
+  hmps::Stack<double> outside{{{-50, {-1.3, 0}, {12.0, 12.0}}, {40, {-1.3, 0}, {11.9, 11.9}}}};
+  hmps::Ellipsoid<double, 3> arytenoid{{6.6, 6, 7}, {4.2, 4, 5.5}};
+
+  [[nodiscard]] double inside_airway(const Point& x) const { return airway(x); }
+  [[nodiscard]] double operator()(const Point& x) const {
+    // The rim falls from 16.6 in front to 7.6 behind.
+    const double rim = (x[2] - (16.6 - 9.0 * (x[0] + 13.2) / 23.8)) / std::hypot(1.0, 9.0 / 23.8);
+    const double tube = std::max({outside(x), rim, bottom - x[2]});
+    const double tips = arytenoid(Point(x[0], std::abs(x[1]), x[2]));
+    return std::min(std::max(tube, -airway(x)), tips);
+  }
+};
+
+/// The pharyngeal wall and the upper esophagus: a sheet around a channel. Above the vallecula it is
+/// open to the front; below, its front wall is the floor of the vallecula and of the pyriform
+/// sinuses, and further down the back of the cricoid.
+struct Pharynx {
+  static constexpr double bottom = -34;
+  static constexpr double top = 97.5;
+  static constexpr double closed_below = 31;  ///< mm, upper edge of the front wall
+  static constexpr double esophagus_below = -9;
+  /// z: widest at x, surface of the posterior wall, half width, surface of the front wall
+  Rows<5> profile{{{-40, 12.2, 13.4, 7, 11},
+                   {-22, 12.2, 13.4, 7.5, 11},
+                   {-16, 12.2, 13.6, 8.5, 10.8},
+                   {-10, 10.5, 13.9, 10.5, 8},
+                   {-5, 8, 13.9, 12.5, 1.5},
+                   {0, 3, 13.8, 14.5, -4.5},
+                   {5, -1, 13.7, 15.4, -8.8},
+                   {10, -3, 13.7, 15.8, -10.2},
+                   {20, -4.3, 13.7, 16, -11.3},
+                   {31, -4.3, 13.7, 16.1, -12.5},
+                   {70, -4.3, 13.7, 16.1, -12.5},
+                   {80, -3.6, 13.0, 15, -12.5},
+                   {90, -3, 11, 13.6, -12.5},
+                   {98, -2.6, 10.5, 12.8, -12.5}}};
+
+  /// Less than one inside of the channel, homogeneous of degree one about its axis.
+  [[nodiscard]] double level(const Point& x) const {
+    const auto [_, widest, back, half_width, front] = profile(x[2]);
+    const double side = x[1] / half_width;
+    if (x[0] >= widest) return std::hypot((x[0] - widest) / (back - widest), side);
+    if (x[2] > closed_below) return std::abs(side);
+    const double ahead = (widest - x[0]) / (widest - front);
+    const double a = std::abs(side);
+    return std::pow(std::pow(ahead, 4) + std::pow(a, 4), 0.25);
+  }
+  /// About the distance to the surface of the channel, negative inside of it.
+  [[nodiscard]] double channel(const Point& x) const {
+    constexpr double e = 0.05;
+    Point slope;
+    for (int c = 0; c < 3; ++c) {
+      Point shift = Point::Zero();
+      shift[c] = e;
+      slope[c] = (level(x + shift) - level(x - shift)) / (2 * e);
+    }
+    return (level(x) - 1) / std::max(slope.norm(), 1e-3);
+  }
+  [[nodiscard]] double ends(const Point& x) const {
+    const double front = x[2] > closed_below ? (x[2] < 76 ? -16.0 : -14.0) - x[0] : -1.0;
+    return std::max({front, bottom - x[2], x[2] - top});
+  }
+  [[nodiscard]] double operator()(const Point& x) const { return layer(x, 0, wall); }
+  /// Between two distances from the channel.
+  [[nodiscard]] double layer(const Point& x, double from, double to) const {
+    const double d = channel(x);
+    return std::max({from - d, d - to, ends(x)});
+  }
+};
+
+/// All organs together.
+struct Anatomy {
+  Epiglottis epiglottis;
+  Tongue tongue;
+  SoftPalate soft_palate;
+  HardPalate hard_palate;
+  Larynx larynx;
+  Pharynx pharynx;
+
+  static constexpr double strip = 2.6;      ///< mm, thickness of region G
+  static constexpr double strip_width = 5;  ///< mm, its half width
+  static constexpr double plate_gap = 1.9;  ///< mm between the wall and the plates H
+
+  /// The organ at `x` (mm) of the body that deforms, `none` in the air and outside. Where shapes overlap they are one
+  /// body, and the first in this order names the particle.
+  [[nodiscard]] Organ organ_at(const Point& x) const {
+    if (hard_palate(x) < 0) return Organ::hard_palate;
+    if (soft_palate(x) < 0) return Organ::soft_palate;
+    if (epiglottis(x) < 0) return Organ::epiglottis;
+    const bool airway = x[2] < 30 && larynx.inside_airway(x) < 0;
+    if (larynx(x) < 0) return Organ::larynx;
+    if (airway) return Organ::none;
+    const double channel = pharynx.channel(x);
+    const double ends = pharynx.ends(x);
+    if (ends < 0 && channel >= 0) {
+      if (channel < wall) {
+        const auto row = pharynx.profile(x[2]);
+        if (x[2] < Pharynx::esophagus_below) return x[0] < row[4] ? Organ::larynx : Organ::esophagus;
+        if (x[2] < Pharynx::closed_below && x[0] < row[4] + 1) return Organ::vallecula;
+        return Organ::pharynx;
+      }
+      if (channel < wall + strip && std::abs(x[1]) < strip_width && x[0] > row_widest(x[2]) && x[2] > -12)
+        return Organ::vertebrae;
+    }
+    // The tongue's lower surface ends where the channel begins.
+    if (tongue(x) < 0 && (x[2] > Pharynx::closed_below || channel > 0)) return Organ::tongue;
+    return Organ::none;
+  }
+
+ private:
+  [[nodiscard]] double row_widest(double z) const { return pharynx.profile(z)[1]; }
+};
+
+}  // namespace swallowing

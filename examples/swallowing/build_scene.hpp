@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <hmps/neighbours/shape_tensor.hpp>
+#include <hmps/neighbours/weight.hpp>
+#include <hmps/shapes/lattice.hpp>
+#include <numbers>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace swallowing {
+
+namespace detail {
+
+/// Smallest eigenvalue of A, \paper{12}, in squared spacings that a particle may have.
+inline constexpr double least_support = 0.75;
+/// mm along the body from a joint of two organs within which they do not touch.
+inline constexpr double attachment = 5.0;
+
+/// The particles of the body with their bonds, while the scene is being built.
+struct Body {
+  std::vector<Point> points;  ///< m
+  std::vector<Organ> organ;
+  std::vector<std::vector<std::pair<std::size_t, Point>>> bonds;  ///< neighbours and r0
+  std::vector<std::array<hmps::Index, 2>> cut;
+
+  Body(const Anatomy& anatomy, std::vector<Point> places, double spacing) : points(std::move(places)) {
+    for (const Point& x : points) organ.push_back(anatomy.organ_at(1e3 * x));
+    const LatticeGraph graph(points, spacing);
+    bonds.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      graph.around(i, [&](std::size_t j, const Point& r0) {
+        // Air is looked for once per pair, so that both see the same.
+        if (j > i && air_between(anatomy, 1e3 * points[i], 1e3 * points[j]))
+          cut.push_back({static_cast<hmps::Index>(i), static_cast<hmps::Index>(j)});
+        else if (j > i)
+          bonds[i].emplace_back(j, r0), bonds[j].emplace_back(i, Point(-r0));
+      });
+    std::sort(cut.begin(), cut.end());
+  }
+
+  [[nodiscard]] double support(std::size_t i, double spacing, const std::vector<char>& kept) const {
+    hmps::ShapeTensor<3> shape;
+    for (const auto& [j, r0] : bonds[i])
+      if (kept[j]) shape.add(r0, hmps::PaperWeight{}(r0.norm(), 1.75 * spacing));
+    return shape.support() / (spacing * spacing);
+  }
+
+  /// Which particles to keep: the largest connected part without weakly supported particles.
+  [[nodiscard]] std::vector<char> supported(double spacing) const {
+    std::vector<char> kept(points.size(), 1);
+    for (bool changed = true; changed;) {
+      changed = false;
+      std::vector<std::size_t> weak;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (kept[i] && support(i, spacing, kept) < least_support) weak.push_back(i);
+      for (const std::size_t i : weak) kept[i] = 0, changed = true;
+    }
+    // The hard palate hangs on the soft palate and everything else on each other: one body.
+    std::vector<int> part(points.size(), -1);
+    std::vector<std::size_t> sizes;
+    for (std::size_t seed = 0; seed < points.size(); ++seed) {
+      if (!kept[seed] || part[seed] >= 0) continue;
+      const int number = static_cast<int>(sizes.size());
+      sizes.push_back(0);
+      std::vector<std::size_t> front{seed};
+      part[seed] = number;
+      while (!front.empty()) {
+        const std::size_t i = front.back();
+        front.pop_back();
+        ++sizes.back();
+        for (const auto& [j, r0] : bonds[i])
+          if (kept[j] && part[j] < 0) part[j] = number, front.push_back(j);
+      }
+    }
+    const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (part[i] != largest) kept[i] = 0;
+    return kept;
+  }
+
+  /// Leaves out all other particles.
+  void keep(const std::vector<char>& kept) {
+    std::vector<std::size_t> place(points.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) place[i] = kept[i] ? count++ : points.size();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!kept[i]) continue;
+      std::vector<std::pair<std::size_t, Point>> rest;
+      for (const auto& [j, r0] : bonds[i])
+        if (kept[j]) rest.emplace_back(place[j], r0);
+      points[place[i]] = points[i], organ[place[i]] = organ[i], bonds[place[i]] = std::move(rest);
+    }
+    points.resize(count), organ.resize(count), bonds.resize(count);
+    std::vector<std::array<hmps::Index, 2>> rest;
+    for (const auto& [i, j] : cut)
+      if (kept[i] && kept[j]) rest.push_back({static_cast<hmps::Index>(place[i]), static_cast<hmps::Index>(place[j])});
+    cut = std::move(rest);
+  }
+};
+
+/// Which particles have air beside them (0), which have such a neighbour (1), and the others (2).
+[[nodiscard]] inline std::vector<char> depths(const Body& body, double spacing) {
+  const auto& points = body.points;
+  std::vector<char> depth(points.size(), 2);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    int faces = 0;
+    for (const auto& [j, r0] : body.bonds[i]) faces += r0.norm() < 1.1 * spacing;
+    if (faces < 6) depth[i] = 0;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (depth[i] == 2)
+      for (const auto& [j, r0] : body.bonds[i])
+        if (depth[j] == 0 && r0.norm() < 1.1 * spacing) depth[i] = 1;
+  return depth;
+}
+
+/// Particles of organs `a` and `b` no further than `attachment` along the body from where the two are joined.
+[[nodiscard]] inline std::vector<char> near_joint(const Body& body, Organ a, Organ b) {
+  const auto& points = body.points;
+  const auto& organ = body.organ;
+  std::vector<double> distance(points.size(), 1);
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto reach = [&](std::size_t i, double d) {
+    if (d < distance[i] && d < 1e-3 * attachment) distance[i] = d, queue.emplace(d, i);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (organ[i] == a || organ[i] == b)
+      for (const auto& [j, r0] : body.bonds[i])
+        if (organ[j] == (organ[i] == a ? b : a)) reach(i, r0.norm() / 2);
+  while (!queue.empty()) {
+    const auto [d, i] = queue.top();
+    queue.pop();
+    if (d > distance[i]) continue;
+    for (const auto& [j, r0] : body.bonds[i]) reach(j, d + r0.norm());
+  }
+  std::vector<char> near(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) near[i] = distance[i] < 1;
+  return near;
+}
+
+/// Fills `scene.contacts` for the pairs in `touching`, but for those with region H.
+inline void declare_contacts(Scene& scene, const Body& body) {
+  const auto depth = depths(body, scene.spacing);
+  for (const OrganPair& pair : touching) {
+    ContactPair contact{pair.first, pair.second, {}, {}, {}, {}};
+    const auto near = near_joint(body, pair.first, pair.second);
+    for (std::size_t i = 0; i < body.points.size(); ++i) {
+      if (depth[i] > 1 || near[i] || (body.organ[i] != pair.first && body.organ[i] != pair.second)) continue;
+      const bool first = body.organ[i] == pair.first;
+      (first ? contact.first_masters : contact.second_masters).push_back(static_cast<hmps::Index>(i));
+      if (depth[i] == 0) (first ? contact.first_slaves : contact.second_slaves).push_back(static_cast<hmps::Index>(i));
+    }
+    scene.contacts.push_back(std::move(contact));
+  }
+}
+
+/// Appends the plates of region H and their contact with the wall to `scene`.
+inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const hmps::Box<double, 3>& box, const Point& origin,
+                             const std::vector<Door>& doors) {
+  const double l0 = scene.spacing;
+  const auto plate = [&](const Point& metres) {
+    const Point x = 1e3 * metres;
+    const double from = wall + Anatomy::plate_gap;
+    const double angle = std::atan2(std::abs(x[1]), x[0] - anatomy.pharynx.profile(x[2])[1]) * 180 / std::numbers::pi;
+    if (angle < 25 || angle > 90 || x[2] > doors.front().top || x[2] < doors.back().bottom) return 1.0;
+    const double d = anatomy.pharynx.channel(x);
+    return std::max(from - d, d - from - 2e3 * l0);
+  };
+  const auto points = hmps::fill_lattice(plate, box, l0, origin);
+  const std::size_t first_door = scene.regions.size();
+  for (std::size_t k = 0; k < doors.size(); ++k)
+    for (const int side : {-1, 1})
+      scene.regions.push_back({"H" + std::to_string(k + 1) + (side < 0 ? " left" : " right"), Region::door,
+                               static_cast<int>(k), double(side)});
+  auto contact = std::find_if(scene.contacts.begin(), scene.contacts.end(),
+                              [](const ContactPair& c) { return c.first == Organ::constrictors; });
+  for (const Point& x : points) {
+    std::size_t door = 0;
+    while (1e3 * x[2] < doors[door].bottom) ++door;
+    const auto index = static_cast<hmps::Index>(scene.reference.size());
+    contact->first_slaves.push_back(index);
+    contact->first_masters.push_back(index);
+    scene.reference.emplace_back(x);
+    scene.organ.push_back(Organ::constrictors);
+    scene.region.push_back(static_cast<int>(first_door + 2 * door + (x[1] > 0 ? 1 : 0)));
+  }
+}
+
+}  // namespace detail
+
+/// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart.
+[[nodiscard]] inline Scene make_scene(const SceneSettings& settings) {
+  const double l0 = settings.spacing;
+  hmps::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
+                " m; give 0.5e-3 to 2.4e-3, the sheets of 4.8 mm need two particles");
+  const Anatomy anatomy;
+  const hmps::Box<double, 3> box{1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
+  // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other.
+  const Point origin = l0 * Point(settings.lattice_shift, 0.5, settings.lattice_shift);
+
+  const auto inside = [&](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
+  detail::Body body(anatomy, hmps::fill_lattice(inside, box, l0, origin), l0);
+  const std::size_t sites = body.points.size();
+  body.keep(body.supported(l0));
+
+  Scene scene;
+  scene.spacing = l0;
+  scene.elastic_count = body.points.size();
+  scene.removed = sites - body.points.size();
+  scene.regions = body_regions();
+  scene.organ = body.organ;
+  scene.cut = body.cut;
+  for (std::size_t i = 0; i < body.points.size(); ++i) {
+    const Point x = 1e3 * body.points[i];
+    scene.reference.emplace_back(body.points[i]);
+    scene.region.push_back(region_at(anatomy, body.organ[i], x, settings.model));
+    if (body.organ[i] != Organ::epiglottis || std::abs(x[1]) > 2.5) continue;
+    const double arc = anatomy.epiglottis.arc(x);
+    const auto index = static_cast<hmps::Index>(i);
+    if (arc < 5) scene.base.push_back(index);
+    if (arc > 0.45 * Epiglottis::length && arc < 0.62 * Epiglottis::length) scene.centre.push_back(index);
+    if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
+  }
+  detail::declare_contacts(scene, body);
+  if (settings.constrictors) detail::add_constrictors(scene, anatomy, box, origin, read_doors(settings.data));
+  return scene;
+}
+
+}  // namespace swallowing

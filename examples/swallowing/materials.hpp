@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <hmps/elastic/mooney_rivlin.hpp>
+#include <vector>
+
+#include "organs.hpp"
+
+namespace swallowing {
+
+/// The materials of sections 2.4 to 2.6, 3.7 and 3.8 of the paper.
+struct Materials {
+  double young = 20e3;                ///< Pa, soft tissue at zero strain
+  double young_epiglottis = 100e3;    ///< Pa
+  double d1 = 1e6;                    ///< Pa, D1 of \paper{15}
+  double density = 1000;              ///< kg/m3
+  double kinematic_viscosity = 2e-3;  ///< m2/s, nu of \paper{21}
+  double penalty_ratio = 0.3;         ///< k~ of \paper{25}
+
+  [[nodiscard]] double young_of(Organ organ) const { return organ == Organ::epiglottis ? young_epiglottis : young; }
+  /// The law of an organ: C1 = C2 from Young's modulus by \paper{18}.
+  [[nodiscard]] hmps::MooneyRivlin<double> law(Organ organ) const {
+    return hmps::MooneyRivlin<double>::from_young(young_of(organ), d1);
+  }
+};
+
+}  // namespace swallowing

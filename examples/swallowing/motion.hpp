@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <hmps/motion/csv.hpp>
+#include <hmps/motion/keyframes.hpp>
+#include <hmps/motion/pose.hpp>
+#include <hmps/motion/rigid_motion.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "regions.hpp"
+
+/// The motion model of sections 3.2 to 3.6 of the paper, from the CSV files of a data folder.
+namespace swallowing {
+
+/// Where a control region is at a time (s). Metres.
+using RegionMotion = std::function<hmps::Pose<double, 3>(double)>;
+
+/// One pair of plates of region H; mm, degrees, seconds.
+struct Door {
+  double bottom, top, angle, start, duration, release, end, opened;
+};
+
+namespace detail {
+
+/// The rows of `table` whose first column is `region`.
+[[nodiscard]] inline hmps::Table rows_of(const hmps::Table& table, int region) {
+  hmps::Table part{table.source, table.names, {}, {}};
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    if (table(row, table.column("region")) == region) {
+      for (std::size_t c = 0; c < table.columns(); ++c) part.values.push_back(table(row, c));
+      part.lines.push_back(table.lines[row]);
+    }
+  hmps::require(part.rows() > 0, table.source, " has no row for region ", region);
+  return part;
+}
+
+}  // namespace detail
+
+/// The doors of constrictors.csv; they shape the plates, too.
+[[nodiscard]] inline std::vector<Door> read_doors(const std::filesystem::path& folder) {
+  const auto table = hmps::read_csv((folder / "constrictors.csv").string());
+  const auto column = [&](const char* name) { return table.column(name); };
+  std::vector<Door> doors;
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    const Door d{table(r, column("z_bottom")), table(r, column("z_top")),    table(r, column("angle")),
+                 table(r, column("start")),    table(r, column("duration")), table(r, column("release")),
+                 table(r, column("end")),      table(r, column("opened"))};
+    hmps::require(d.bottom < d.top && d.duration > 0 && d.start + d.duration < d.release && d.release < d.end,
+                  table.source, " line ", table.lines[r],
+                  ": a plate needs z_bottom < z_top and start + duration < release < end");
+    doors.push_back(d);
+  }
+  return doors;
+}
+
+/// The prescribed motion of every control region.
+class Motion {
+ public:
+  /// Reads the folder. Throws `hmps::InputError` with file and line where it is malformed.
+  explicit Motion(const std::filesystem::path& folder)
+      : hyoid_(track(folder, "hyoid")), larynx_(track(folder, "larynx")), doors_(read_doors(folder)) {
+    const auto follow = hmps::read_csv((folder / "regions.csv").string());
+    for (const char* file : {"tongue.csv", "soft_palate.csv", "larynx.csv", "epiglottis.csv"}) {
+      const auto table = hmps::read_csv((folder / file).string());
+      const bool sideways = table.has("medial");
+      std::vector<int> ids;
+      for (std::size_t r = 0; r < table.rows(); ++r) {
+        const int id = static_cast<int>(table(r, table.column("region")));
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+      }
+      for (const int id : ids) {
+        const auto part = detail::rows_of(table, id);
+        const auto share = detail::rows_of(follow, id);
+        moved_.push_back(
+            {id, share(0, share.column("hyoid")), share(0, share.column("larynx")),
+             1e-3 * hmps::Vector<double, 3>(share(0, share.column("pivot_x")), 0, share(0, share.column("pivot_z"))),
+             hmps::keyframes<3>(part, {"posterior", "superior", sideways ? "medial" : "turn"}), sideways});
+      }
+    }
+  }
+
+  /// Where `region` is at time `t` (s).
+  [[nodiscard]] hmps::Pose<double, 3> operator()(const Region& region, double t) const {
+    using Vector = hmps::Vector<double, 3>;
+    hmps::Pose<double, 3> pose;
+    if (region.kind == Region::fixed) return pose;
+    if (region.kind == Region::door) {
+      const Door& door = doors_[static_cast<std::size_t>(region.number)];
+      const double angle = door.angle * closing(door, t) * std::numbers::pi / 180;
+      pose.pivot = 1e-3 * Vector(hinge_x, region.side * hinge_y, 0);
+      pose.rotation = hmps::rotation<double>(Vector(0, 0, region.side * angle));
+      return pose;
+    }
+    for (const auto& m : moved_)
+      if (m.id == region.number) {
+        const Vector own = m.own.value(t);
+        pose.pivot = m.pivot;
+        pose.translation = m.hyoid * hyoid(t) + m.larynx * larynx(t) + 1e-3 * Vector(own[0], 0, own[1]);
+        if (m.sideways)
+          pose.translation[1] = -1e-3 * region.side * own[2];
+        else
+          pose.rotation = hmps::rotation<double>(Vector(0, own[2] * std::numbers::pi / 180, 0));
+        return pose;
+      }
+    throw hmps::InputError(hmps::message("no motion is given for region ", region.name));
+  }
+
+  /// Displacement (m) of the hyoid bone and of the larynx from rest at time `t`.
+  [[nodiscard]] hmps::Vector<double, 3> hyoid(double t) const { return displacement(hyoid_, t); }
+  [[nodiscard]] hmps::Vector<double, 3> larynx(double t) const { return displacement(larynx_, t); }
+
+ private:
+  static constexpr double hinge_x = 15.7;  ///< mm, calibrated
+  static constexpr double hinge_y = 4;     ///< mm
+
+  struct Moved {
+    int id;
+    double hyoid, larynx;
+    hmps::Vector<double, 3> pivot;
+    hmps::Keyframes<3> own;
+    bool sideways;
+  };
+
+  [[nodiscard]] static hmps::Keyframes<2> track(const std::filesystem::path& folder, const std::string& what) {
+    const auto table = hmps::read_csv((folder / "larynx_hyoid_track.csv").string());
+    return hmps::keyframes<2>(table, {what + "_anterior", what + "_superior"}, 1e-3);
+  }
+  [[nodiscard]] static hmps::Vector<double, 3> displacement(const hmps::Keyframes<2>& keys, double t) {
+    const auto d = keys.value(t);
+    return {-d[0], 0, d[1]};
+  }
+  [[nodiscard]] static double smooth(double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+  }
+  [[nodiscard]] static double closing(const Door& d, double t) {
+    return smooth((t - d.start) / d.duration) - (1 - d.opened) * smooth((t - d.release) / (d.end - d.release));
+  }
+
+  hmps::Keyframes<2> hyoid_, larynx_;
+  std::vector<Door> doors_;
+  std::vector<Moved> moved_;
+};
+
+}  // namespace swallowing

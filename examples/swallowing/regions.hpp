@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "anatomy.hpp"
+#include "cases.hpp"
+
+namespace swallowing {
+
+/// A control region: the particles whose motion is prescribed (sections 3.2 to 3.6 of the paper).
+struct Region {
+  enum Kind {
+    fixed,  ///< does not move: the vertebrae (G), the hard palate, the roof of the pharynx
+    moved,  ///< `number` as in data/regions.csv
+    door    ///< one plate of region H; `number` is its row in data/constrictors.csv
+  };
+  std::string name;
+  Kind kind = fixed;
+  int number = 0;
+  double side = 0;  ///< -1 or 1 for one of a pair, the sign of y
+};
+
+/// Middle of the control regions of the tongue in degrees about its centre, and their half angle.
+struct TongueRegion {
+  double angle, half;
+};
+inline constexpr std::array<TongueRegion, 8> tongue_regions{
+    {{-54, 8}, {1, 13}, {50, 10}, {74, 4}, {90, 4}, {106, 4}, {122, 4}, {138, 4}}};
+
+/// The control regions of the deforming body, in a fixed order.
+[[nodiscard]] inline std::vector<Region> body_regions() {
+  std::vector<Region> regions{{"G", Region::fixed}};
+  for (int k = 0; k < 8; ++k) regions.push_back({"B" + std::to_string(k), Region::moved, k});
+  regions.push_back({"A", Region::moved, 10});
+  regions.push_back({"S1", Region::moved, 20});
+  regions.push_back({"S2", Region::moved, 21});
+  regions.push_back({"C", Region::moved, 30});
+  regions.push_back({"D left", Region::moved, 31, -1});
+  regions.push_back({"D right", Region::moved, 31, 1});
+  regions.push_back({"E", Region::moved, 40});
+  regions.push_back({"F", Region::moved, 41});
+  return regions;
+}
+
+/// The place in `body_regions` of the region that a particle of `organ` at `x` (mm) belongs to, -1 for none.
+[[nodiscard]] inline int region_at(const Anatomy& anatomy, Organ organ, const Point& x, Model model) {
+  constexpr int G = 0, B = 1, A = 9, S1 = 10, S2 = 11, C = 12, D = 13, E = 15, F = 16;
+  const double y = std::abs(x[1]);
+  switch (organ) {
+    case Organ::hard_palate:
+    case Organ::vertebrae:
+      return G;
+    case Organ::pharynx:
+      return x[2] > 92.5 ? G : -1;
+    case Organ::tongue: {
+      const auto [angle, radius, row] = anatomy.tongue.polar(x);
+      const double depth = row[1] - radius;
+      if (y < 6 && depth < 4.8)
+        for (std::size_t k = 0; k < tongue_regions.size(); ++k)
+          if (std::abs(angle - tongue_regions[k].angle) < tongue_regions[k].half) return B + static_cast<int>(k);
+      if ((angle > 70 && y > 0.74 * row[2] && depth < 9.5) || (angle > 143 && depth < 6)) return A;
+      return -1;
+    }
+    case Organ::soft_palate: {
+      const double arc = anatomy.soft_palate.arc(x);
+      if (y < 5 && std::abs(arc - 14) < 3) return S1;
+      if (y < 5 && std::abs(arc - 26) < 3) return S2;
+      return -1;
+    }
+    case Organ::larynx: {
+      if (x[2] > -22 && x[2] < -8 && anatomy.larynx.outside(x) < 0) return C;
+      if (std::abs(x[0] - 6.5) < 3 && std::abs(y - 6) < 3 && x[2] > 1 && x[2] < 9) return x[1] < 0 ? D : D + 1;
+      return -1;
+    }
+    case Organ::epiglottis: {
+      const double arc = anatomy.epiglottis.arc(x);
+      if (arc < 5) return E;
+      if (model == Model::X && y < 4 && arc > 0.45 * Epiglottis::length && arc < 0.62 * Epiglottis::length) return F;
+      return -1;
+    }
+    default:
+      return -1;
+  }
+}
+
+}  // namespace swallowing

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <hmps/core/error.hpp>
+#include <hmps/core/types.hpp>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "anatomy.hpp"
+#include "cases.hpp"
+#include "motion.hpp"
+#include "organs.hpp"
+#include "regions.hpp"
+
+namespace swallowing {
+
+struct SceneSettings {
+  double spacing = 2.4e-3;   ///< l0 in m
+  double lattice_shift = 0;  ///< of the lattice along x and z, in spacings
+  Model model = Model::X;
+  bool constrictors = true;    ///< with region H
+  std::filesystem::path data;  ///< folder of the motion, whose constrictors.csv shapes region H
+};
+
+/// Two organs that may touch, as particles: each side is slave of the other (\paper{43}). Where the
+/// two are one body there is no contact: particles within `attachment` of the joint are left out.
+struct ContactPair {
+  Organ first, second;
+  std::vector<hmps::Index> first_slaves, first_masters;  ///< surface particles; those and the layer below
+  std::vector<hmps::Index> second_slaves, second_masters;
+};
+
+/// All particles of the swallow in their reference configuration. The deforming body comes first,
+/// then the rigid plates of region H, which take part in contact only.
+struct Scene {
+  double spacing = 0;                      ///< m
+  std::vector<Eigen::Vector3d> reference;  ///< m; x posterior, z superior, y = 0 is the midsagittal plane
+  std::size_t elastic_count = 0;
+  std::vector<Organ> organ;  ///< of each particle
+  std::vector<Region> regions;
+  std::vector<int> region;  ///< of each particle: place in `regions`, -1 if it is free
+  std::vector<std::array<hmps::Index, 2>>
+      cut;  ///< sorted pairs (i < j) nearer than the effective radius that air divides
+  std::vector<ContactPair> contacts;
+  std::vector<hmps::Index> base, centre,
+      tip;                  ///< of the epiglottis in the midline: arcs at region E, region F, the end
+  std::size_t removed = 0;  ///< weakly supported particles that were left out
+
+  /// Whether two particles of the body are bonded if they are near enough: not across an air gap.
+  [[nodiscard]] bool bonded(std::size_t i, std::size_t j) const {
+    const std::array<hmps::Index, 2> pair{static_cast<hmps::Index>(std::min(i, j)),
+                                          static_cast<hmps::Index>(std::max(i, j))};
+    return !std::binary_search(cut.begin(), cut.end(), pair);
+  }
+  /// The particles of each region, in the order of `regions`.
+  [[nodiscard]] std::vector<std::vector<hmps::Index>> particles_of_regions() const {
+    std::vector<std::vector<hmps::Index>> lists(regions.size());
+    for (std::size_t i = 0; i < region.size(); ++i)
+      if (region[i] >= 0) lists[static_cast<std::size_t>(region[i])].push_back(static_cast<hmps::Index>(i));
+    return lists;
+  }
+};
+
+namespace detail {
+
+/// The bonds of particles on one lattice as lists, for what the scene has to know about them.
+class LatticeGraph {
+ public:
+  LatticeGraph(const std::vector<Point>& points, double spacing) : spacing_(spacing) {
+    cells_.reserve(points.size());
+    for (const Point& x : points) {
+      std::array<int, 3> cell;
+      for (int c = 0; c < 3; ++c)
+        cell[static_cast<std::size_t>(c)] = static_cast<int>(std::lround((x[c] - points[0][c]) / spacing));
+      cells_.push_back(cell);
+    }
+    index_.reserve(2 * points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) index_[key(cells_[i])] = i;
+  }
+  static constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+  [[nodiscard]] std::size_t neighbour(std::size_t i, int a, int b, int c) const {
+    const auto found = index_.find(key({cells_[i][0] + a, cells_[i][1] + b, cells_[i][2] + c}));
+    return found == index_.end() ? nobody : found->second;
+  }
+  /// Calls visit(j, offset in m) for the particles at the 26 sites around `i`.
+  template <class Visit>
+  void around(std::size_t i, Visit&& visit) const {
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b)
+        for (int c = -1; c <= 1; ++c)
+          if (const std::size_t j = a || b || c ? neighbour(i, a, b, c) : nobody; j != nobody)
+            visit(j, Point(spacing_ * Point(a, b, c)));
+  }
+  void remove(std::size_t i) { index_.erase(key(cells_[i])); }
+
+ private:
+  [[nodiscard]] static std::int64_t key(const std::array<int, 3>& c) {
+    return ((c[0] + 4096LL) << 40) + ((c[1] + 4096LL) << 20) + c[2] + 4096LL;
+  }
+  double spacing_;
+  std::vector<std::array<int, 3>> cells_;
+  std::unordered_map<std::int64_t, std::size_t> index_;
+};
+
+/// Whether air lies between two points (mm): around the middle of their connection, as far as `reach` mm, there is no
+/// tissue. The reach keeps bonds along a hollow surface, whose middles leave the tissue by a few tenths.
+[[nodiscard]] inline bool air_between(const Anatomy& anatomy, const Point& a, const Point& b) {
+  constexpr double reach = 0.5;
+  const Point middle = (a + b) / 2;
+  if (anatomy.organ_at(middle) != Organ::none) return false;
+  for (int c = 0; c < 3; ++c)
+    for (const double side : {-reach, reach}) {
+      Point x = middle;
+      x[c] += side;
+      if (anatomy.organ_at(x) != Organ::none) return false;
+    }
+  return true;
+}
+
+}  // namespace detail
+}  // namespace swallowing
