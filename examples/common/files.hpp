@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "hmps/core/error.hpp"
+#include <hmps/core/error.hpp>
 
 /// Small helpers that the example programs share. They are no part of the library.
 namespace examples {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <hmps/core/view.hpp>
 #include "csv_writer.hpp"
 #include "files.hpp"
-#include "hmps/core/view.hpp"
 
 namespace examples {
 

@@ -22,6 +22,8 @@ template <class... Values>
   return text;
 }
 
+[[nodiscard]] const char* motion(const Case& paper) { return paper.model == Model::X ? "X" : "Y"; }
+
 /// Our result in words: a time, that it did not fold, or why nothing can be said.
 [[nodiscard]] std::string ours(const CaseResult& result) {
   if (!result.summary) return "not run";
@@ -29,10 +31,10 @@ template <class... Values>
   if (result.summary->failure) return "stopped";
   return result.summary->time > 2.05 - 1e-4 ? "did not fold" : format("not until %.3f s", result.summary->time);
 }
-[[nodiscard]] std::string papers(const PaperCase& paper) {
+[[nodiscard]] std::string papers(const Case& paper) {
   return paper.fold_time ? format("%.2f s", *paper.fold_time) : "did not fold";
 }
-[[nodiscard]] std::string difference(const PaperCase& paper, const CaseResult& result) {
+[[nodiscard]] std::string difference(const Case& paper, const CaseResult& result) {
   if (!paper.fold_time || !result.summary || !result.summary->fold_time) return "–";
   return format("%+.0f ms", 1e3 * (*result.summary->fold_time - *paper.fold_time));
 }
@@ -49,7 +51,7 @@ constexpr std::array<Colour, 4> colours{Colour::hex(0xc01c28), Colour::hex(0xf08
 std::array<CaseResult, 4> read_results(const std::filesystem::path& out) {
   std::array<CaseResult, 4> results;
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::filesystem::path folder = out / paper_cases[i].name;
+    const std::filesystem::path folder = out / cases[i].name;
     results[i] = {read_summary(folder / "summary.json"), read_series(folder / "series.csv")};
   }
   return results;
@@ -62,9 +64,9 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
       "angle |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < 4; ++i) {
-    const PaperCase& paper = paper_cases[i];
+    const Case& paper = cases[i];
     const auto& summary = results[i].summary;
-    text += format("| %s | %s | %g | %s | %s | %s | %s | %s |\n", paper.name, paper.motion,
+    text += format("| %s | %s | %g | %s | %s | %s | %s | %s |\n", std::string(paper.name).c_str(), motion(paper),
                    summary ? summary->friction : paper.friction, papers(paper).c_str(), ours(results[i]).c_str(),
                    difference(paper, results[i]).c_str(),
                    summary && summary->fold_time_base ? format("%.3f s", *summary->fold_time_base).c_str() : "–",
@@ -77,9 +79,10 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
   std::string runs;
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary)
-      runs += format("| %s | %.3g mm | %.4g s | %s | %llu | %llu | %.1f s |\n", paper_cases[i].name, 1e3 * s->spacing,
-                     s->time_step, s->scalar.c_str(), static_cast<unsigned long long>(s->particles_free),
-                     static_cast<unsigned long long>(s->particles_control), s->wall_seconds);
+      runs +=
+          format("| %s | %.3g mm | %.4g s | %s | %llu | %llu | %.1f s |\n", std::string(cases[i].name).c_str(),
+                 1e3 * s->spacing, s->time_step, s->scalar.c_str(), static_cast<unsigned long long>(s->particles_free),
+                 static_cast<unsigned long long>(s->particles_control), s->wall_seconds);
   if (!runs.empty())
     text +=
         "\n| case | spacing | time step | scalar | free particles | control particles | wall clock |\n"
@@ -87,7 +90,7 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
         runs;
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary; s && s->failure)
-      text += "\nCase " + std::string(paper_cases[i].name) + " stopped: " + *s->failure + "\n";
+      text += "\nCase " + std::string(cases[i].name) + " stopped: " + *s->failure + "\n";
   examples::write_atomically(path, text);
 }
 
@@ -124,15 +127,15 @@ void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4
   double last_time = 0;
   int level = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (!paper_cases[i].fold_time) continue;
-    const double t = *paper_cases[i].fold_time;
+    if (!cases[i].fold_time) continue;
+    const double t = *cases[i].fold_time;
     level = t == last_time ? level + 1 : 0;
     last_time = t;
     const double x = px(t) + 3 * level;
     canvas.line(x, top, x, top + height, colours[i].opacity(0.85), 1.8, {3, 6});
     const bool leftward = i == 0;
-    canvas.text_with_halo(leftward ? x - 7 : x + 7, top + 20 + 20 * level, std::string("paper ") + paper_cases[i].name,
-                          15, colours[i], {1, 1, 1}, leftward ? Anchor::right : Anchor::left, true);
+    canvas.text_with_halo(leftward ? x - 7 : x + 7, top + 20 + 20 * level, "paper " + std::string(cases[i].name), 15,
+                          colours[i], {1, 1, 1}, leftward ? Anchor::right : Anchor::left, true);
   }
 
   cairo_save(canvas.cairo());
@@ -165,12 +168,12 @@ void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4
     y += 50;
     canvas.line(table, y - 6, table + 38, y - 6, colours[i], 3.4,
                 i % 2 == 0 ? std::vector<double>{} : std::vector<double>{11, 6});
-    canvas.text(column[0], y, paper_cases[i].name, 19, ink, Anchor::left, true);
-    canvas.text(column[1], y, papers(paper_cases[i]), 17, ink, Anchor::middle);
+    canvas.text(column[0], y, std::string(cases[i].name), 19, ink, Anchor::left, true);
+    canvas.text(column[1], y, papers(cases[i]), 17, ink, Anchor::middle);
     canvas.text(column[2], y, ours(results[i]), 17, results[i].summary ? ink : faint, Anchor::middle,
                 results[i].summary.has_value());
-    const std::string note = format("model %s, friction %g", paper_cases[i].motion,
-                                    results[i].summary ? results[i].summary->friction : paper_cases[i].friction);
+    const std::string note = format("model %s, friction %g", motion(cases[i]),
+                                    results[i].summary ? results[i].summary->friction : cases[i].friction);
     canvas.text(column[0], y + 20, note, 13, faint);
   }
   y += 44;

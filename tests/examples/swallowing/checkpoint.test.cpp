@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "checkpoint.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <random>
+
+#include "folder.hpp"
+
+namespace {
+
+using hmps::InputError;
+using swallowing::Checkpoint;
+
+Checkpoint example(std::uint64_t step, std::size_t size = 1000) {
+  std::mt19937_64 random(step);
+  Checkpoint c;
+  c.settings = {{"spacing", "0.0024"}, {"case", "X1"}};
+  c.time = 1e-5 * static_cast<double>(step);
+  c.step = step;
+  std::vector<double> x(size);
+  std::vector<std::array<float, 3>> v(size);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (auto& value : x) value = uniform(random);
+  for (auto& vector : v)
+    for (auto& value : vector) value = static_cast<float>(uniform(random));
+  c.set("x", x);
+  c.set("v", v);
+  c.set("seconds", 42.5);
+  c.set("none", std::vector<double>());
+  return c;
+}
+
+TEST(Checkpoint, GivesBackEveryBit) {
+  TestFolder folder;
+  const auto path = folder.path / "checkpoint.bin";
+  EXPECT_FALSE(Checkpoint::load(path));
+  const Checkpoint written = example(77);
+  written.save(path);
+  const auto read = Checkpoint::load(path);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->time, written.time);
+  EXPECT_EQ(read->step, 77u);
+  EXPECT_EQ(read->settings, written.settings);
+  EXPECT_EQ(read->get<double>("x"), written.get<double>("x"));
+  std::vector<std::array<float, 3>> v(1000);
+  read->get("v", v);
+  EXPECT_EQ(v, (written.get<std::array<float, 3>>("v")));
+  EXPECT_EQ(read->value<double>("seconds"), 42.5);
+  EXPECT_TRUE(read->get<double>("none").empty());
+}
+
+TEST(Checkpoint, SetTwiceKeepsTheLast) {
+  Checkpoint c;
+  c.set("a", 1.0);
+  c.set("a", 2.0);
+  EXPECT_EQ(c.value<double>("a"), 2.0);
+}
+
+TEST(Checkpoint, AnyDamageIsSeen) {
+  TestFolder folder;
+  const auto path = folder.path / "checkpoint.bin";
+  example(3, 40).save(path);
+  const std::string whole = examples::read_file(path);
+  for (std::size_t at = 0; at < whole.size(); at += 13) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    examples::write_atomically(path, damaged);
+    EXPECT_THROW((void)Checkpoint::load(path), InputError) << "byte " << at;
+  }
+  for (std::size_t length = 0; length < whole.size(); length += 17) {
+    examples::write_atomically(path, whole.substr(0, length));
+    EXPECT_THROW((void)Checkpoint::load(path), InputError) << "cut at " << length;
+  }
+}
+
+TEST(Checkpoint, OtherSettingsAreRefusedByName) {
+  const Checkpoint c = example(1);
+  EXPECT_NO_THROW(swallowing::require_same_settings(c, {{"case", "X1"}, {"spacing", "0.0024"}}, "c.bin"));
+  const auto refusal = [&](const swallowing::RunSettings& settings) {
+    return message_of<InputError>([&] { swallowing::require_same_settings(c, settings, "c.bin"); });
+  };
+  const std::string spacing = refusal({{"case", "X1"}, {"spacing", "0.0018"}});
+  for (const char* part : {"c.bin", "spacing", "0.0024", "0.0018"}) EXPECT_NE(spacing.find(part), std::string::npos);
+  EXPECT_NE(refusal({{"case", "X1"}}).find("spacing"), std::string::npos);
+  EXPECT_NE(refusal({{"case", "X1"}, {"spacing", "0.0024"}, {"scalar", "float"}}).find("scalar"), std::string::npos);
+}
+
+TEST(Checkpoint, WrongNamesSizesAndTypesAreRefused) {
+  const Checkpoint c = example(1, 5);
+  EXPECT_THROW((void)c.get<double>("y"), InputError);
+  EXPECT_THROW((void)c.get<float>("x"), InputError);
+  std::vector<double> six(6);
+  EXPECT_THROW(c.get("x", six), InputError);
+  EXPECT_THROW((void)c.value<double>("x"), InputError);
+}
+
+// A child writes checkpoints one after another and is killed in the midst: what is there is whole.
+TEST(Checkpoint, SurvivesAKillAtAnyMoment) {
+  TestFolder folder;
+  const auto path = folder.path / "checkpoint.bin";
+  for (int round = 0; round < 10; ++round) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (std::uint64_t step = 1;; ++step) example(step, 20000).save(path);
+    }
+    while (!std::filesystem::exists(path)) ::usleep(500);
+    ::usleep(static_cast<useconds_t>(3000 + 1700 * round));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    const auto read = Checkpoint::load(path);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->get<double>("x"), example(read->step, 20000).get<double>("x"));
+  }
+}
+
+}  // namespace

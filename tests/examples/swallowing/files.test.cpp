@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "../common/files.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../common/csv_reader.hpp"
+#include "../common/csv_writer.hpp"
+#include "folder.hpp"
+
+namespace {
+
+using hmps::InputError;
+
+TEST(Files, AreReplacedAsAWhole) {
+  TestFolder folder;
+  const auto path = folder.path / "a.txt";
+  examples::write_atomically(path, "first");
+  examples::write_atomically(path, "second");
+  EXPECT_EQ(examples::read_file(path), "second");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 1) << "nothing is left beside it";
+  EXPECT_THROW(examples::write_atomically(folder.path / "missing" / "a.txt", "x"), InputError);
+  EXPECT_THROW((void)examples::read_file(folder.path / "b.txt"), InputError);
+}
+
+TEST(Files, AFolderThatCannotBeWrittenIsToldAtOnce) {
+  TestFolder folder;
+  EXPECT_NO_THROW(examples::prepare_folder(folder.path / "new" / "deep"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path / "new" / "deep"));
+  examples::write_atomically(folder.path / "file", "x");
+  const std::string in_the_way = message_of<InputError>([&] { examples::prepare_folder(folder.path / "file"); });
+  EXPECT_NE(in_the_way.find("file"), std::string::npos);
+  EXPECT_THROW(examples::prepare_folder(folder.path / "file" / "below"), InputError);
+  if (::geteuid() == 0) return;  // root writes everywhere
+  std::filesystem::permissions(folder.path / "new", std::filesystem::perms::owner_read);
+  EXPECT_THROW(examples::prepare_folder(folder.path / "new"), InputError);
+  std::filesystem::permissions(folder.path / "new", std::filesystem::perms::owner_all);
+}
+
+TEST(Csv, NumbersComeBackToTheLastBit) {
+  TestFolder folder;
+  const std::vector<double> row{0.1, -1.0 / 3, 1e-300, 6.02214076e23, 0};
+  { examples::CsvWriter(folder.path / "t.csv", "a,b,c,d,e").add(row); }
+  { examples::CsvWriter(folder.path / "t.csv", "a,b,c,d,e", true).add(row); }
+  const auto table = examples::parse_csv(examples::read_file(folder.path / "t.csv"), "t.csv");
+  EXPECT_EQ(table.header, (std::vector<std::string>{"a", "b", "c", "d", "e"}));
+  EXPECT_EQ(table.rows, (std::vector<std::vector<double>>{row, row}));
+}
+
+TEST(Csv, CommentsBlanksAndWindowsLineEndsPass) {
+  const auto table = examples::parse_csv("# source\r\nt, x\r\n\r\n1, 2 \r\n# more\n3,4", "m");
+  EXPECT_EQ(table.header, (std::vector<std::string>{"t", "x"}));
+  EXPECT_EQ(table.rows, (std::vector<std::vector<double>>{{1, 2}, {3, 4}}));
+}
+
+TEST(Csv, MistakesNameTheLine) {
+  const auto complaint = [](const char* text) {
+    return message_of<InputError>([&] { (void)examples::parse_csv(text, "m.csv"); });
+  };
+  EXPECT_NE(complaint("a,b\n1,2\n3\n").find("line 3"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n1,2\n3,4,5\n").find("line 3"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n1,two\n").find("line 2, column b: 'two'"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n1,nan\n").find("line 2"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n1,\n").find("line 2"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n1,2x\n").find("line 2"), std::string::npos);
+  EXPECT_NE(complaint("\n\n").find("empty"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "folder.hpp"
+
+namespace {
+
+using examples::Field;
+using swallowing::Frames;
+
+struct Cloud {
+  std::vector<std::array<float, 3>> x{{0.f, 0.25f, -1.f}, {1.f, 2.f, 3.f}, {-4.f, 5.5f, 6.f}};
+  std::vector<double> j{1.0, 0.5, 1.25};
+  std::vector<int> organ{0, 7, 3};
+
+  [[nodiscard]] std::vector<Field> fields() const {
+    return {examples::numbers("velocity", hmps::vectors(x)), examples::numbers("J", hmps::scalars(j)),
+            examples::whole_numbers("organ", organ)};
+  }
+  void write(Frames& frames, double time) const {
+    const auto point_data = fields();
+    frames.add(time, examples::numbers("position", hmps::vectors(x)), point_data);
+  }
+};
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(Frames, TheListNamesEveryFileAsItComes) {
+  TestFolder folder;
+  Frames frames(folder.path);
+  for (int i = 0; i < 4; ++i) {
+    Cloud().write(frames, 0.1 * i);
+    const std::string list = examples::read_file(folder.path / "frames.pvd");
+    for (const auto& [time, file] : frames.list()) {
+      EXPECT_TRUE(std::filesystem::exists(folder.path / file));
+      EXPECT_NE(list.find("timestep=\"" + examples::to_text(time) + "\""), std::string::npos);
+      EXPECT_NE(list.find(file), std::string::npos);
+    }
+  }
+  EXPECT_EQ(frames.list().size(), 4u);
+}
+
+TEST(Frames, ResumedTheyAreTheSame) {
+  TestFolder whole, resumed;
+  std::filesystem::create_directories(resumed.path / "b");
+  {
+    Frames frames(whole.path);
+    for (int i = 0; i < 6; ++i) Cloud().write(frames, 0.1 * i);
+  }
+  {
+    Frames frames(resumed.path / "b");
+    for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
+  }
+  {
+    Frames frames(resumed.path / "b", 0.2);
+    ASSERT_EQ(frames.list().size(), 3u);
+    for (int i = 3; i < 6; ++i) Cloud().write(frames, 0.1 * i);
+  }
+  EXPECT_EQ(examples::read_file(whole.path / "frames.pvd"), examples::read_file(resumed.path / "b/frames.pvd"));
+  EXPECT_EQ(files_in(whole.path / "frames"), files_in(resumed.path / "b/frames"));
+}
+
+TEST(Frames, ANewRunRemovesTheFramesOfTheOld) {
+  TestFolder folder;
+  {
+    Frames frames(folder.path);
+    for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
+  }
+  Frames frames(folder.path);
+  Cloud().write(frames, 0);
+  EXPECT_EQ(files_in(folder.path / "frames"), 1u);
+}
+
+TEST(Frames, AFieldOfAnotherSizeIsRefused) {
+  TestFolder folder;
+  Frames frames(folder.path);
+  const Cloud cloud;
+  const std::vector<Field> fields{examples::whole_numbers("organ", std::vector<int>{1, 2})};
+  EXPECT_THROW(frames.add(0, examples::numbers("position", hmps::vectors(cloud.x)), fields), hmps::InputError);
+}
+
+// The real VTK reads back what was written: read_frames.py beside this file compares every value.
+TEST(Frames, VtkReadsThemBack) {
+  const std::string python = "/usr/bin/python3 ";
+  if (std::system((python + "-c 'import vtk' 2>/dev/null").c_str()) != 0)
+    GTEST_SKIP() << "the Python package of VTK is not here: apt-get install --no-install-recommends python3-vtk9";
+  TestFolder folder;
+  Frames frames(folder.path);
+  Cloud().write(frames, 0);
+  Cloud().write(frames, 0.125);
+  const auto script = std::filesystem::path(__FILE__).parent_path() / "read_frames.py";
+  EXPECT_EQ(std::system((python + script.string() + " " + folder.path.string()).c_str()), 0);
+}
+
+}  // namespace

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <vector>
+
+namespace {
+
+using swallowing::Options;
+
+struct Parsed {
+  std::optional<Options> options;
+  int exit_code = 0;
+  std::string out, err;
+};
+
+Parsed parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "swallowing");
+  Parsed parsed;
+  std::ostringstream out, err;
+  parsed.options =
+      swallowing::parse_options(static_cast<int>(arguments.size()), arguments.data(), out, err, parsed.exit_code);
+  parsed.out = out.str();
+  parsed.err = err.str();
+  return parsed;
+}
+
+TEST(Options, DefaultsAreAllCasesAtTheDefaultSpacing) {
+  const auto parsed = parse({});
+  ASSERT_TRUE(parsed.options) << parsed.err;
+  EXPECT_EQ(parsed.options->cases, (std::vector<std::string>{"X1", "X3", "Y1", "Y3"}));
+  EXPECT_EQ(parsed.options->spacing, 2.4e-3);
+  EXPECT_EQ(parsed.options->time_step, 0);
+  EXPECT_EQ(parsed.options->until, 2.05);
+  EXPECT_FALSE(parsed.options->single_precision);
+  EXPECT_FALSE(parsed.options->friction);
+  EXPECT_TRUE(parsed.options->frames);
+  EXPECT_TRUE(parsed.options->constrictors);
+  EXPECT_FALSE(parsed.options->resume);
+  EXPECT_GE(parsed.options->threads, 1);
+}
+
+TEST(Options, EveryOptionArrives) {
+  const auto parsed = parse({"--case",    "Y3",   "--spacing",       "1.2e-3", "--time-step", "1e-5",
+                             "--until",   "1.75", "--friction",      "0.2",    "--scalar",    "float",
+                             "--threads", "3",    "--out",           "here",   "--resume",    "--no-frames",
+                             "--penalty", "9e11", "--lattice-shift", "0.5",    "--without-H", "--frame-interval",
+                             "0.02"});
+  ASSERT_TRUE(parsed.options) << parsed.err;
+  EXPECT_EQ(parsed.options->cases, std::vector<std::string>{"Y3"});
+  EXPECT_EQ(parsed.options->spacing, 1.2e-3);
+  EXPECT_EQ(parsed.options->time_step, 1e-5);
+  EXPECT_EQ(parsed.options->until, 1.75);
+  EXPECT_EQ(parsed.options->friction, 0.2);
+  EXPECT_TRUE(parsed.options->single_precision);
+  EXPECT_EQ(parsed.options->threads, 3);
+  EXPECT_EQ(parsed.options->out, "here");
+  EXPECT_TRUE(parsed.options->resume);
+  EXPECT_FALSE(parsed.options->frames);
+  EXPECT_EQ(parsed.options->penalty, 9e11);
+  EXPECT_EQ(parsed.options->lattice_shift, 0.5);
+  EXPECT_FALSE(parsed.options->constrictors);
+  EXPECT_EQ(parsed.options->frame_interval, 0.02);
+  EXPECT_EQ(parse({"--penalty-ratio", "0.1"}).options->penalty_ratio, 0.1);
+}
+
+TEST(Options, HelpNamesEveryOptionAndEndsWell) {
+  const auto parsed = parse({"--help"});
+  EXPECT_FALSE(parsed.options);
+  EXPECT_EQ(parsed.exit_code, 0);
+  for (const char* name : {"--case", "--spacing", "--time-step", "--until", "--friction", "--scalar", "--threads",
+                           "--out", "--resume", "--no-frames", "--help"})
+    EXPECT_NE(parsed.out.find(name), std::string::npos) << name;
+}
+
+TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
+  const std::vector<std::vector<const char*>> mistakes{{"--case", "Z9"},
+                                                       {"--spacing", "2.4"},
+                                                       {"--spacing", "0"},
+                                                       {"--spacing", "-1e-3"},
+                                                       {"--spacing", "nan"},
+                                                       {"--spacing", "big"},
+                                                       {"--spacing"},
+                                                       {"--time-step", "-1"},
+                                                       {"--time-step", "1"},
+                                                       {"--until", "0"},
+                                                       {"--until", "3"},
+                                                       {"--friction", "-0.1"},
+                                                       {"--friction", "inf"},
+                                                       {"--scalar", "half"},
+                                                       {"--threads", "0"},
+                                                       {"--threads", "two"},
+                                                       {"--penalty", "0"},
+                                                       {"--penalty-ratio", "-1"},
+                                                       {"--unknown"},
+                                                       {"--out", ""},
+                                                       {"--lattice-shift", "7"},
+                                                       {"--frame-interval", "0"},
+                                                       {"--data", "/no/where"},
+                                                       {"stray"},
+                                                       {"--until", "1.5x"},
+                                                       {"--spacing", "2.4e-3 mm"},
+                                                       {"--penalty", "1", "--penalty-ratio", "0.3"}};
+  for (const auto& mistake : mistakes) {
+    const auto parsed = parse(mistake);
+    EXPECT_FALSE(parsed.options) << mistake[0];
+    EXPECT_EQ(parsed.exit_code, 2) << mistake[0];
+    EXPECT_NE(parsed.err.find(mistake[0]), std::string::npos) << mistake[0] << ": " << parsed.err;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "pictures.hpp"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "comparison.hpp"
+#include "folder.hpp"
+
+namespace {
+
+using swallowing::Role;
+using swallowing::Snapshot;
+using swallowing::Snapshots;
+
+/// A block of one organ, 40 mm by 20 mm by 60 mm, with a dark layer below and a grey one behind.
+Snapshot block(double time) {
+  Snapshot s;
+  s.time = time;
+  s.spacing = 2e-3;
+  s.organs = {"tongue", "epiglottis"};
+  for (int i = 0; i < 20; ++i)
+    for (int j = -5; j < 5; ++j)
+      for (int k = 0; k < 30; ++k) {
+        s.positions.push_back(
+            {2e-3f * static_cast<float>(i), 2e-3f * (static_cast<float>(j) + 0.5f), 2e-3f * static_cast<float>(k)});
+        s.organ.push_back(k > 20 ? 1 : 0);
+        s.role.push_back(k == 0 ? Role::control : i == 19 ? Role::plate : Role::free);
+      }
+  s.centre = {0.01, 0, 0.045};
+  s.tip = {0.02, 0, 0.055};
+  s.tip_angle = 45;
+  return s;
+}
+
+struct Png {
+  cairo_surface_t* surface;
+  explicit Png(const std::filesystem::path& path) : surface(cairo_image_surface_create_from_png(path.c_str())) {}
+  Png(const Png&) = delete;
+  Png& operator=(const Png&) = delete;
+  ~Png() { cairo_surface_destroy(surface); }
+  /// The share of pixels that `wanted(red, green, blue)` holds for.
+  template <class Wanted>
+  [[nodiscard]] double share(Wanted&& wanted) const {
+    const int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
+    const unsigned char* data = cairo_image_surface_get_data(surface);
+    int count = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const unsigned char* p = data + y * cairo_image_surface_get_stride(surface) + 4 * x;
+        count += wanted(int{p[2]}, int{p[1]}, int{p[0]});
+      }
+    return static_cast<double>(count) / width / height;
+  }
+};
+
+constexpr auto red = [](int r, int g, int b) { return r > 150 && g < 120 && b < 120; };
+constexpr auto yellow = [](int r, int g, int b) { return r > 200 && g > 150 && b < 100; };
+constexpr auto dark = [](int r, int g, int b) { return r < 70 && g < 70 && b < 80; };
+
+TEST(Pictures, ASnapshotComesBackAsItWas) {
+  TestFolder folder;
+  const Snapshots snapshots(folder.path / "snapshots");
+  EXPECT_FALSE(snapshots.load(4));
+  const Snapshot s = block(1.667);
+  snapshots.add(4, s);
+  const auto read = snapshots.load(4);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->time, s.time);
+  EXPECT_EQ(read->spacing, s.spacing);
+  EXPECT_EQ(read->positions, s.positions);
+  EXPECT_EQ(read->organ, s.organ);
+  EXPECT_EQ(read->role, s.role);
+  EXPECT_EQ(read->organs, s.organs);
+  EXPECT_EQ(read->centre, s.centre);
+  EXPECT_EQ(read->tip, s.tip);
+  EXPECT_EQ(read->tip_angle, 45);
+}
+
+TEST(Pictures, AResumedRunKeepsWhatLiesBeforeTheCheckpoint) {
+  TestFolder folder;
+  {
+    const Snapshots snapshots(folder.path);
+    for (std::size_t panel = 0; panel < 5; ++panel) snapshots.add(panel, block(swallowing::picture_times[panel]));
+  }
+  {
+    const Snapshots snapshots(folder.path, 1.4);
+    EXPECT_TRUE(snapshots.load(0) && snapshots.load(1) && snapshots.load(2));
+    EXPECT_FALSE(snapshots.load(3) || snapshots.load(4));
+  }
+  const Snapshots anew(folder.path);
+  EXPECT_FALSE(anew.load(0));
+}
+
+TEST(Pictures, TheSheetShowsOrgansAndControlRegions) {
+  TestFolder folder;
+  const Snapshots snapshots(folder.path / "snapshots");
+  const auto path = folder.path / "sheet.png";
+  swallowing::draw_sheet(path, snapshots, "nothing yet");
+  EXPECT_LT(Png(path).share(red), 1e-3);
+
+  for (std::size_t panel = 0; panel < swallowing::picture_times.size(); ++panel)
+    snapshots.add(panel, block(swallowing::picture_times[panel]));
+  swallowing::draw_sheet(path, snapshots, "all");
+  const Png sheet(path);
+  ASSERT_EQ(cairo_surface_status(sheet.surface), CAIRO_STATUS_SUCCESS);
+  EXPECT_GT(cairo_image_surface_get_width(sheet.surface), 1500);
+  EXPECT_GT(sheet.share(red), 0.2);
+  EXPECT_GT(sheet.share(yellow), 0.05);
+  EXPECT_GT(sheet.share(dark), 0.01);
+}
+
+TEST(Pictures, OnlyTheRightHalfIsDrawn) {
+  TestFolder folder;
+  const Snapshots snapshots(folder.path / "snapshots");
+  Snapshot s = block(0);
+  for (auto& p : s.positions) p[1] = -std::abs(p[1]);
+  snapshots.add(0, s);
+  swallowing::draw_sheet(folder.path / "sheet.png", snapshots, "left");
+  EXPECT_LT(Png(folder.path / "sheet.png").share(yellow), 1e-3);
+}
+
+TEST(Pictures, TableAndFoldStandBesideThePaper) {
+  TestFolder folder;
+  const auto x1 = folder.path / "X1";
+  std::filesystem::create_directories(x1);
+  {
+    swallowing::Series series(x1 / "series.csv");
+    for (int i = 0; i < 205; ++i) {
+      swallowing::Sample sample;
+      sample.time = 0.01 * i;
+      sample.tip_angle = 60 - 0.4 * i;
+      series.add(sample);
+    }
+  }
+  swallowing::Summary summary;
+  summary.case_name = "X1";
+  summary.friction = 0.1;
+  summary.time = 2.05;
+  summary.fold_time = 1.662;
+  swallowing::write_summary(x1 / "summary.json", summary);
+
+  const auto results = swallowing::read_results(folder.path);
+  ASSERT_TRUE(results[0].summary);
+  EXPECT_FALSE(results[3].summary);
+  swallowing::write_table2(folder.path / "table2.md", results);
+  swallowing::draw_fold(folder.path / "fold.png", results);
+  const std::string table = examples::read_file(folder.path / "table2.md");
+  EXPECT_NE(table.find("| X1 | X | 0.1 | 1.65 s | 1.662 s | +12 ms |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| Y3 | Y | 0.3 | did not fold | not run |"), std::string::npos) << table;
+  EXPECT_GT(Png(folder.path / "fold.png").share([](int r, int g, int b) { return r > 170 && g < 60 && b < 70; }), 1e-3);
+}
+
+}  // namespace
