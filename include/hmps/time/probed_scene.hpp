@@ -77,11 +77,9 @@ class ProbedScene {
 
   /// Fills what stiffness and damping make of `direction.y`, by central differences of the force.
   void probe(Direction<D>& direction) {
-    difference(direction.y, x_, length_, direction.stiffness,
-               [&](const auto& trial, auto& f) { call(trial, v_, f); });
+    difference(direction.y, x_, length_, direction.stiffness, [&](const auto& trial, auto& f) { call(trial, v_, f); });
     if (damped_)
-      difference(direction.y, v_, speed_, direction.damping,
-                 [&](const auto& trial, auto& f) { call(x_, trial, f); });
+      difference(direction.y, v_, speed_, direction.damping, [&](const auto& trial, auto& f) { call(x_, trial, f); });
   }
   /// No further velocities are tried if the force did not answer to the first.
   void forget_damping_if_none(const Direction<D>& direction) {

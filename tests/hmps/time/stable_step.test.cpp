@@ -179,17 +179,6 @@ TEST(StableStep, DoesNotChangeTheStateAndRepeats) {
   EXPECT_EQ(first.iterations, second.iterations);
 }
 
-TEST(StableStep, KeptModeMakesTheNextCallCheaper) {
-  Chain<double, 3> chain{.n = 500};
-  auto x = chain.positions();
-  std::vector<Vector<double, 3>> v(chain.n, Vector<double, 3>::Zero()), mode;
-  const auto first = stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = chain.spacing}, mode);
-  chain.stiffness *= 1.01;
-  const auto second = stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = chain.spacing}, mode);
-  EXPECT_LT(second.iterations, first.iterations);
-  expect_safe(second, 2 / std::sqrt(chain.stiffness / 1000 * chain.largest_eigenvalue()), 1e-6);
-}
-
 TEST(StableStep, ParticlesThatDoNotMoveDoNotCount) {
   Chain<double, 2> chain{.n = 50};
   auto x = chain.positions();
