@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -42,6 +43,10 @@ class Checkpoint {
   template <class T>
   requires std::is_arithmetic_v<T>
   void set(const std::string& name, T value) { set(name, std::span<const T>(&value, 1)); }
+  /// Whether there is an array under `name`.
+  [[nodiscard]] bool contains(const std::string& name) const {
+    return std::ranges::any_of(arrays_, [&](const Array& array) { return array.name == name; });
+  }
   /// The array stored under `name`. Throws `InputError` if there is none or it is of another type.
   template <class T>
   [[nodiscard]] std::vector<T> get(const std::string& name) const {

@@ -52,6 +52,8 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_EQ(v, (written.get<std::array<float, 3>>("v")));
   EXPECT_EQ(read->value<double>("seconds"), 42.5);
   EXPECT_TRUE(read->get<double>("none").empty());
+  EXPECT_TRUE(read->contains("none"));
+  EXPECT_FALSE(read->contains("nothing"));
 }
 
 TEST(Checkpoint, SetTwiceKeepsTheLast) {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+
+#include "../common/csv_reader.hpp"
+#include "../common/csv_writer.hpp"
+#include "probe.hpp"
+
+namespace {
+
+using namespace force_probe;
+
+/// The state in a table with the columns X,Y,Z,x,y,z,vx,vy,vz,body in any order.
+State read_state(const std::string& path) {
+  const auto table = examples::parse_csv(examples::read_file(path), path);
+  const auto column = [&](const char* name) {
+    const auto found = std::find(table.header.begin(), table.header.end(), name);
+    hmps::require(found != table.header.end(), path, " has no column ", name,
+                  "; its first line must be X,Y,Z,x,y,z,vx,vy,vz,body");
+    return static_cast<std::size_t>(found - table.header.begin());
+  };
+  const std::size_t X[] = {column("X"), column("Y"), column("Z")}, x[] = {column("x"), column("y"), column("z")},
+                    v[] = {column("vx"), column("vy"), column("vz")}, body = column("body");
+  hmps::require(!table.rows.empty(), path, " has no particles; give a line for each below the header");
+  State state;
+  for (const auto& row : table.rows) {
+    state.reference.push_back({row[X[0]], row[X[1]], row[X[2]]});
+    state.position.push_back({row[x[0]], row[x[1]], row[x[2]]});
+    state.velocity.push_back({row[v[0]], row[v[1]], row[v[2]]});
+    hmps::require(row[body] == std::floor(row[body]) && std::abs(row[body]) < 1e9, path, ": the body of particle ",
+                  state.body.size(), " is ", row[body], "; it must be a whole number");
+    state.body.push_back(static_cast<int>(row[body]));
+  }
+  return state;
+}
+
+std::string table_of(const Forces& forces) {
+  std::string text;
+  for (const char* name : {"elastic", "artificial", "viscous", "contact"})
+    for (const char axis : {'x', 'y', 'z'}) (((text += name) += '_') += axis) += ',';
+  text += "J\n";
+  for (std::size_t i = 0; i < forces.J.size(); ++i) {
+    std::vector<double> row;
+    for (const auto* force : {&forces.elastic, &forces.artificial, &forces.viscous, &forces.contact})
+      row.insert(row.end(), (*force)[i].begin(), (*force)[i].end());
+    row.push_back(forces.J[i]);
+    text += examples::csv_line(row);
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  std::string in, out, law = "corrected", scalar = "double";
+  CLI::App app(
+      "Evaluates the forces of the paper on a state that is given as CSV with the header\n"
+      "X,Y,Z,x,y,z,vx,vy,vz,body: reference position, position (m), velocity (m/s) and body (a whole number) of\n"
+      "each particle. Writes the force densities (N/m3) and det F of each particle. Bonds join particles of one\n"
+      "body; contact, with both roles and reactions, acts between different bodies at the given velocities.",
+      "force_probe");
+  app.add_option("--in", in, "the state")->type_name("FILE")->required();
+  app.add_option("--out", out, "the forces; without it they go to standard output")->type_name("FILE");
+  const auto number = [&](const char* name, double& target, const char* unit, const char* help) {
+    return app.add_option(name, target, help)->type_name(unit)->capture_default_str();
+  };
+  number("--spacing", settings.spacing, "M", "spacing l0 of the particles")->check(CLI::PositiveNumber);
+  number("--young", settings.young, "PA", "Young's modulus E")->check(CLI::PositiveNumber);
+  const auto* hat = app.add_option("--young-hat", settings.young_hat, "E_hat of the artificial force (default: E)")
+                        ->type_name("PA")
+                        ->check(CLI::NonNegativeNumber);
+  number("--d1", settings.d1, "PA", "volumetric constant D1")->check(CLI::PositiveNumber);
+  number("--density", settings.density, "KG/M3", "density")->check(CLI::PositiveNumber);
+  number("--viscosity", settings.viscosity, "M2/S", "kinematic viscosity nu")->check(CLI::NonNegativeNumber);
+  number("--friction", settings.friction, "MU", "friction coefficient")->check(CLI::NonNegativeNumber);
+  number("--penalty-ratio", settings.penalty_ratio, "K", "spring ratio k~ of the contact")->check(CLI::PositiveNumber);
+  number("--time-step", settings.time_step, "S", "time step")->check(CLI::PositiveNumber);
+  app.add_option("--friction-law", law, "paper or corrected")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"paper", "corrected"}));
+  app.add_option("--scalar", scalar, "float or double, in which the forces are evaluated")
+      ->type_name("TYPE")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"float", "double"}));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) {
+      std::cout << app.help();
+      return 0;
+    }
+    std::cerr << "force_probe: " << problem.what() << "\nTry force_probe --help.\n";
+    return 2;
+  }
+  if (hat->empty()) settings.young_hat = settings.young;
+  settings.paper_friction = law == "paper";
+  try {
+    const State state = read_state(in);
+    const std::string table =
+        table_of(scalar == "float" ? probe<float>(state, settings) : probe<double>(state, settings));
+    if (out.empty()) {
+      std::cout << table << std::flush;
+    } else {
+      examples::write_atomically(out, table);
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "force_probe: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
