@@ -29,7 +29,7 @@ template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
   std::ostringstream text;
   text.precision(9);
-  (text << ... << parts);
+  ((text << parts), ...);
   return text.str();
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
@@ -25,13 +25,11 @@ class View {
   View() = default;
 
   /// A view of `size` particles whose components start at `base` and lie `stride` bytes apart.
-  View(std::array<T*, N> base, std::size_t size, std::ptrdiff_t stride)
-      : base_(base), size_(size), stride_(stride) {}
+  View(std::array<T*, N> base, std::size_t size, std::ptrdiff_t stride) : base_(base), size_(size), stride_(stride) {}
 
   /// A writable view converts to a read-only one.
   template <class U>
-    requires std::same_as<T, const U>
-  View(const View<U, N>& other) : size_(other.size()), stride_(other.stride()) {
+  requires std::same_as<T, const U> View(const View<U, N>& other) : size_(other.size()), stride_(other.stride()) {
     for (int c = 0; c < N; ++c) base_[static_cast<std::size_t>(c)] = other.base(c);
   }
 
@@ -65,6 +63,7 @@ struct ScalarView : View<T, 1> {
   ScalarView() = default;
   ScalarView(const View<T, 1>& view) : View<T, 1>(view) {}
   [[nodiscard]] T& operator[](std::size_t i) const { return (*this)(i, 0); }
+  [[nodiscard]] ScalarView part(std::size_t first, std::size_t count) const { return View<T, 1>::part(first, count); }
 };
 
 /// View of one `D`-vector per particle: positions, velocities, force densities.
@@ -76,6 +75,7 @@ struct VectorView : View<T, D> {
   VectorView() = default;
   VectorView(const View<T, D>& view) : View<T, D>(view) {}
 
+  [[nodiscard]] VectorView part(std::size_t first, std::size_t count) const { return View<T, D>::part(first, count); }
   /// The vector of particle `i`, by value.
   [[nodiscard]] Vector<Scalar, D> operator[](std::size_t i) const {
     Vector<Scalar, D> value;
@@ -101,6 +101,9 @@ struct MatrixView : View<T, D * D> {
   MatrixView() = default;
   MatrixView(const View<T, D * D>& view) : View<T, D * D>(view) {}
 
+  [[nodiscard]] MatrixView part(std::size_t first, std::size_t count) const {
+    return View<T, D * D>::part(first, count);
+  }
   /// The tensor of particle `i`, by value.
   [[nodiscard]] Matrix<Scalar, D> operator[](std::size_t i) const {
     Matrix<Scalar, D> value;
@@ -144,7 +147,7 @@ struct MemberTraits<Eigen::Matrix<S, R, C, O, MR, MC>> {
   static constexpr int size = R * C;
 };
 template <class S>
-  requires std::is_arithmetic_v<S>
+requires std::is_arithmetic_v<S>
 struct MemberTraits<S> {
   using Scalar = S;
   static constexpr int size = 1;
@@ -189,6 +192,17 @@ concept Elements = requires(R& range) {
   typename MemberTraits<std::remove_const_t<typename decltype(std::span(range))::element_type>>::Scalar;
 };
 
+/// An Eigen object over memory that outlives the call: no temporary that owns its numbers.
+template <class M>
+concept EigenView = std::derived_from<std::remove_cvref_t<M>, Eigen::DenseBase<std::remove_cvref_t<M>>> &&
+    requires(M& m) {
+  m.data();
+  m.outerStride();
+} &&(std::is_lvalue_reference_v<M> ||
+     !std::derived_from<std::remove_cvref_t<M>, Eigen::PlainObjectBase<std::remove_cvref_t<M>>>);
+template <class M>
+concept Columns = M::RowsAtCompileTime == 2 || M::RowsAtCompileTime == 3;
+
 }  // namespace detail
 
 /// Vectors in a range of `Eigen::Vector3d`, `std::array<float, 2>`, … (anything that a `std::span`
@@ -208,8 +222,8 @@ template <class R, class Class, class Member>
 
 /// Vectors in one array per component (struct of arrays). Throws `InputError` if sizes differ.
 template <class R, class... More>
-  requires(detail::Elements<R> && sizeof...(More) >= 1 && (detail::Elements<More> && ...))
-[[nodiscard]] auto vectors(R& first, More&... more) {
+requires(detail::Elements<R> && sizeof...(More) >= 1 && (detail::Elements<More> && ...))
+    [[nodiscard]] auto vectors(R& first, More&... more) {
   const std::span x(first);
   using T = typename decltype(x)::element_type;
   ((require(std::span(more).size() == x.size(), "hmps: the component arrays of a vector view have ", x.size(), " and ",
@@ -219,19 +233,18 @@ template <class R, class... More>
   return VectorView<T, D>({x.data(), std::span(more).data()...}, x.size(), sizeof(T));
 }
 
-/// Vectors in the columns of an Eigen matrix or map with 2 or 3 rows at compile time.
-template <class Derived>
-  requires(Derived::RowsAtCompileTime == 2 || Derived::RowsAtCompileTime == 3)
-[[nodiscard]] auto vectors(Eigen::DenseBase<Derived>& columns) {
-  constexpr int D = Derived::RowsAtCompileTime;
-  using S = typename Derived::Scalar;
-  using T = std::conditional_t<(Derived::Flags & Eigen::LvalueBit) != 0, S, const S>;
-  auto& m = columns.derived();
-  const std::ptrdiff_t row = (Derived::IsRowMajor ? m.outerStride() : m.innerStride());
-  const std::ptrdiff_t col = (Derived::IsRowMajor ? m.innerStride() : m.outerStride());
+/// Vectors in the columns of an Eigen matrix, map or block with 2 or 3 rows at compile time. Maps and
+/// blocks may be temporaries.
+template <class M>
+requires(detail::EigenView<M>&& detail::Columns<std::remove_cvref_t<M>>) [[nodiscard]] auto vectors(M&& columns) {
+  using T = std::remove_pointer_t<decltype(columns.data())>;
+  constexpr bool by_rows = std::remove_cvref_t<M>::IsRowMajor;
+  constexpr int D = std::remove_cvref_t<M>::RowsAtCompileTime;
+  const std::ptrdiff_t row = by_rows ? columns.outerStride() : columns.innerStride();
+  const std::ptrdiff_t col = by_rows ? columns.innerStride() : columns.outerStride();
   std::array<T*, D> base{};
-  for (int c = 0; c < D; ++c) base[static_cast<std::size_t>(c)] = m.data() + c * row;
-  return VectorView<T, D>(base, static_cast<std::size_t>(m.cols()), col * static_cast<std::ptrdiff_t>(sizeof(S)));
+  for (int c = 0; c < D; ++c) base[static_cast<std::size_t>(c)] = columns.data() + c * row;
+  return VectorView<T, D>(base, static_cast<std::size_t>(columns.cols()), col * static_cast<std::ptrdiff_t>(sizeof(T)));
 }
 
 /// Vectors of `D` components, the first at `first`, `stride` bytes from particle to particle.
@@ -261,6 +274,15 @@ template <detail::Elements R>
   return ScalarView<T>(detail::elements(span.data(), span.size()));
 }
 
+/// Scalars in an Eigen vector, map or segment.
+template <class M>
+requires(detail::EigenView<M>&& bool(std::remove_cvref_t<M>::IsVectorAtCompileTime))
+    [[nodiscard]] auto scalars(M&& values) {
+  using T = std::remove_pointer_t<decltype(values.data())>;
+  return ScalarView<T>({values.data()}, static_cast<std::size_t>(values.size()),
+                       values.innerStride() * static_cast<std::ptrdiff_t>(sizeof(T)));
+}
+
 /// Scalars in the member `pointer` of a range of the user's structs.
 template <class R, class Class, class Member>
 [[nodiscard]] auto scalars(R& range, Member Class::*pointer) {
@@ -281,8 +303,8 @@ template <class T, int N>
 void require_finite(const View<T, N>& view, const char* name) {
   for (std::size_t i = 0; i < view.size(); ++i)
     for (int c = 0; c < N; ++c)
-      require((view(i, c) - view(i, c)) == 0, "hmps: component ", c, " of ", name, " of particle ", i, " is ", view(i, c),
-              "; every component must be a finite number");
+      require((view(i, c) - view(i, c)) == 0, "hmps: component ", c, " of ", name, " of particle ", i, " is ",
+              view(i, c), "; every component must be a finite number");
 }
 
 }  // namespace hmps
