@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace {
+
+static_assert(std::is_base_of_v<std::runtime_error, hmps::Error>);
+static_assert(std::is_base_of_v<hmps::Error, hmps::InputError>);
+static_assert(std::is_base_of_v<hmps::Error, hmps::StateError>);
+static_assert(!std::is_base_of_v<hmps::InputError, hmps::StateError>);
+
+TEST(Error, MessageJoinsItsParts) {
+  EXPECT_EQ(hmps::message("particle ", 7u, " lies at ", 0.25, " m"), "particle 7 lies at 0.25 m");
+  EXPECT_EQ(hmps::message(), "");
+}
+
+// 1.2e-3 and its neighbour in single precision must not read the same.
+TEST(Error, MessageKeepsTheDigitsOfAFloat) {
+  EXPECT_NE(hmps::message(1.2e-3f), hmps::message(std::nextafter(1.2e-3f, 1.0f)));
+}
+
+TEST(Error, RequireThrowsItsMessage) {
+  EXPECT_NO_THROW(hmps::require(true, "never"));
+  try {
+    hmps::require(1 > 2, "hmps: the spacing is ", -1.5, " m");
+    FAIL() << "nothing was thrown";
+  } catch (const hmps::InputError& error) {
+    EXPECT_STREQ(error.what(), "hmps: the spacing is -1.5 m");
+  }
+}
+
+}  // namespace
