@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/shapes/combine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+using hmps::Matrix;
+using hmps::Vector;
+
+template <class S_, int D_>
+struct Case {
+  using S = S_;
+  static constexpr int D = D_;
+};
+
+template <class T>
+class Combine : public testing::Test {
+ public:
+  using Scalar = typename T::S;
+  static constexpr int dimension = T::D;
+  using Position = Vector<Scalar, dimension>;
+  const hmps::Ball<Scalar, dimension> left{.centre = Scalar(-0.5) * Position::Unit(0), .radius = Scalar(0.75)};
+  const hmps::Ball<Scalar, dimension> right{.centre = Scalar(0.5) * Position::Unit(0), .radius = Scalar(0.5)};
+  const hmps::Box<Scalar, dimension> box{Position::Constant(Scalar(-0.25)), Position::Constant(Scalar(1))};
+
+  /// Calls `check` at positions that are the same in every run.
+  template <class Check>
+  void everywhere(Check&& check) const {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-2, 2);
+    for (int k = 0; k < 300; ++k) {
+      Position x;
+      for (int c = 0; c < dimension; ++c) x[c] = static_cast<Scalar>(uniform(random));
+      check(x);
+    }
+  }
+};
+using Cases = testing::Types<Case<float, 2>, Case<double, 2>, Case<float, 3>, Case<double, 3>>;
+TYPED_TEST_SUITE(Combine, Cases);
+
+TYPED_TEST(Combine, SetOperationsAgreeWithSetsOfPoints) {
+  const auto& [a, b, c] = std::tie(this->left, this->right, this->box);
+  const auto any = hmps::unite(a, b, c);
+  const auto all = hmps::intersect(a, b, c);
+  const auto rest = hmps::subtract(a, b, c);
+  const auto outside = hmps::complement(a);
+  const auto list = hmps::unite_all(std::vector{a, b});
+  using S = typename TypeParam::S;
+  static_assert(hmps::Shape<decltype(any), S, TypeParam::D>);
+  int counts[3] = {};
+  this->everywhere([&](const auto& x) {
+    const bool in_a = a(x) < 0, in_b = b(x) < 0, in_c = c(x) < 0;
+    EXPECT_EQ(any(x) < 0, in_a || in_b || in_c);
+    EXPECT_EQ(all(x) < 0, in_a && in_b && in_c);
+    EXPECT_EQ(rest(x) < 0, in_a && !in_b && !in_c);
+    EXPECT_EQ(outside(x) < 0, !in_a);
+    EXPECT_EQ(list(x) < 0, in_a || in_b);
+    counts[0] += any(x) < 0, counts[1] += rest(x) < 0, counts[2] += outside(x) < 0;
+  });
+  for (const int count : counts) EXPECT_GT(count, 0);
+}
+
+TYPED_TEST(Combine, OffsetLayerAndShellMeasureFromTheSurface) {
+  using S = typename TypeParam::S;
+  const auto& ball = this->left;
+  const auto grown = hmps::offset(ball, 0.25);
+  const auto wall = hmps::layer(ball, 0.0, 0.2);
+  const auto sheet = hmps::shell(ball, 0.5);
+  const S eps = S(16) * std::numeric_limits<S>::epsilon();
+  this->everywhere([&](const auto& x) {
+    const S d = ball(x);
+    EXPECT_NEAR(grown(x), d - S(0.25), eps);
+    EXPECT_EQ(wall(x) < 0, d > 0 && d < S(0.2));
+    EXPECT_NEAR(sheet(x), std::abs(d) - S(0.25), eps);
+  });
+}
+
+TYPED_TEST(Combine, SmoothOperationsAddAFilletOnlyWhereTheShapesMeet) {
+  using S = typename TypeParam::S;
+  const auto& [a, b] = std::tie(this->left, this->right);
+  const S width = S(0.5);
+  const auto any = hmps::smooth_unite(a, b, width);
+  const auto all = hmps::smooth_intersect(a, b, width);
+  const auto rest = hmps::smooth_subtract(a, b, width);
+  const S eps = S(16) * std::numeric_limits<S>::epsilon();
+  bool added = false;
+  this->everywhere([&](const auto& x) {
+    const S least = std::min(a(x), b(x)), most = std::max(a(x), b(x)), cut = std::max(a(x), -b(x));
+    EXPECT_LE(any(x), least + eps);
+    EXPECT_GE(any(x), least - width / 4 - eps);
+    EXPECT_GE(all(x), most - eps);
+    EXPECT_LE(all(x), most + width / 4 + eps);
+    EXPECT_GE(rest(x), cut - eps);
+    if (std::abs(a(x) - b(x)) >= width) {
+      EXPECT_NEAR(any(x), least, eps);
+    } else {
+      added = added || any(x) < least - width / 100;
+    }
+    EXPECT_NEAR(hmps::smooth_unite(a, b, S(0))(x), least, eps);
+  });
+  EXPECT_TRUE(added);
+}
+
+TYPED_TEST(Combine, MovesAndTurnsAndMirrors) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  Matrix<S, D> quarter = Matrix<S, D>::Identity();
+  quarter.template topLeftCorner<2, 2>() << S(0), S(-1), S(1), S(0);
+  const auto moved = hmps::translated(this->box, V(V::Unit(1)));
+  const auto turned = hmps::rotated(this->box, quarter);
+  const V pivot = V::Unit(0);
+  const auto about = hmps::rotated(this->box, quarter, pivot);
+  const auto both = hmps::mirrored(this->right, 0);
+  const auto seen = hmps::warped(this->box, [](const V& x) { return V(S(2) * x); });
+  const S eps = S(32) * std::numeric_limits<S>::epsilon();
+  this->everywhere([&](const V& x) {
+    EXPECT_NEAR(moved(V(x + V::Unit(1))), this->box(x), eps);
+    EXPECT_NEAR(turned(V(quarter * x)), this->box(x), eps);
+    EXPECT_NEAR(about(V(pivot + quarter * (x - pivot))), this->box(x), eps);
+    V other = x;
+    other[0] = -x[0];
+    EXPECT_EQ(both(x), both(other));
+    if (x[0] >= 0) {
+      EXPECT_EQ(both(x), this->right(x));
+    }
+    EXPECT_EQ(seen(x), this->box(V(S(2) * x)));
+  });
+}
+
+}  // namespace

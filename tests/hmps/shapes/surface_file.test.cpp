@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/shapes/surface_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "surfaces.hpp"
+
+namespace {
+
+using hmps::Vector;
+using namespace hmps_test;
+
+template <class S>
+class SurfaceFile : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(SurfaceFile, Scalars);
+
+template <class S>
+std::string ascii_stl(const hmps::SurfaceMesh<S>& mesh) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "solid thing\r\n";
+  for (const auto& t : mesh.triangles) {
+    text << "  facet normal 0 0 0\n    outer loop\n";
+    for (const hmps::Index v : t) text << "      VERTEX " << mesh.vertices[v].transpose() << "\r\n";
+    text << "    endloop\n  endfacet\n";
+  }
+  text << "endsolid thing\n";
+  return text.str();
+}
+
+template <class S>
+std::string binary_stl(const hmps::SurfaceMesh<S>& mesh, std::string header) {
+  header.resize(80, ' ');
+  const auto put = [&](const auto& value) { header.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  put(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& t : mesh.triangles) {
+    put(std::array<float, 3>{});
+    for (const hmps::Index v : t)
+      for (int c = 0; c < 3; ++c) put(static_cast<float>(mesh.vertices[v][c]));
+    put(std::uint16_t{0});
+  }
+  return header;
+}
+
+template <class S>
+std::string obj(const hmps::SurfaceMesh<S>& mesh) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "# made by a test\nmtllib none.mtl\no thing\n";
+  for (const auto& v : mesh.vertices) text << "v " << v.transpose() << "\n";
+  text << "vn 0 0 1\n";
+  for (const auto& t : mesh.triangles) text << "f " << t[0] + 1 << "//1 " << t[1] + 1 << "/2/1 " << t[2] + 1 << "\n";
+  return text.str();
+}
+
+template <class Call>
+std::string failure(Call&& call) {
+  try {
+    call();
+  } catch (const hmps::InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text << "\n  lacks: " << part;
+}
+
+TYPED_TEST(SurfaceFile, ReadsWhatWasWrittenInEveryFormat) {
+  using S = TypeParam;
+  const auto torus = torus_surface<S>(S(2), S(0.5), 12, 8);
+  // Binary STL holds floats.
+  const double relative = 32 * std::numeric_limits<float>::epsilon();
+  for (const auto& [ending, bytes] :
+       {std::pair{".stl", ascii_stl(torus)}, std::pair{".STL", binary_stl(torus, "binary")},
+        std::pair{".stl", binary_stl(torus, "solid but binary")}, std::pair{".obj", obj(torus)}}) {
+    const TemporaryFile file(ending, bytes);
+    const auto mesh = hmps::read_surface<S>(file.path());
+    EXPECT_EQ(mesh.vertices.size(), torus.vertices.size());
+    EXPECT_EQ(mesh.triangles.size(), torus.triangles.size());
+    EXPECT_EQ(mesh.source, file.path());
+    EXPECT_NEAR(hmps::volume(mesh), hmps::volume(torus), relative * hmps::volume(torus));
+    const auto scaled = hmps::read_surface<S>(file.path(), 1e-3);
+    EXPECT_NEAR(hmps::volume(scaled), 1e-9 * hmps::volume(torus), relative * 1e-9 * hmps::volume(torus));
+  }
+}
+
+TYPED_TEST(SurfaceFile, ObjTakesPolygonsAndNegativeIndices) {
+  using S = TypeParam;
+  const TemporaryFile file(".obj",
+                           "v 0 0 0\nv 1 0 0 # a comment\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                           "f 4 3 2 1\nf -4 -3 -2 -1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const auto mesh = hmps::read_obj<S>(file.path());
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_NEAR(hmps::volume(mesh), 1, 8 * std::numeric_limits<S>::epsilon());
+}
+
+TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  const auto message = [](const char* ending, const std::string& bytes) {
+    const TemporaryFile file(ending, bytes);
+    const std::string text = failure([&] { (void)hmps::read_surface<S>(file.path()); });
+    EXPECT_NE(text.find(file.path()), std::string::npos) << text;
+    return text;
+  };
+  expect_contains(message(".obj", "v 0 0 0\nv 1 x 0\n"), "line 2: 'x' is not a finite number");
+  expect_contains(message(".obj", "v 0 0\n"), "line 1: a vertex has only 2 coordinates");
+  expect_contains(message(".obj", "v 0 0 inf\n"), "line 1: 'inf' is not a finite number");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 2 3\n"), "line 2: a face names vertex 2 but 1 vertices");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 1\n"), "line 2: a face has 2 corners");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 a 1\n"), "line 2: 'a' is no corner");
+  expect_contains(message(".obj", "v 0 0 0\nf 0 1 1\n"), "line 2: a face names vertex 0");
+  expect_contains(message(".obj", ""), "has no vertices");
+  expect_contains(message(".stl", "solid a\nfacet normal 0 0 1\nvertex 1 2\n"), "line 3: a vertex has only 2");
+  expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\nendfacet\n"), "line 4: a facet ends after 1 vertices");
+  expect_contains(message(".stl", "solid a\nvertex 1 2 3\n"), "line 2: a vertex outside of a facet");
+  expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\n"), "cut off");
+  expect_contains(message(".stl", "solid a\nfacets\n"), "line 2: 'facets' is no word");
+  expect_contains(message(".stl", "PK"), "is no STL file");
+  const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
+  const std::string whole = binary_stl(box, "binary");
+  expect_contains(message(".stl", whole.substr(0, whole.size() - 7)),
+                  "ends at byte 677 but announces 12 triangles in 684 bytes");
+  auto nan = box;
+  nan.vertices[0][0] = std::numeric_limits<S>::quiet_NaN();
+  expect_contains(message(".stl", binary_stl(nan, "binary")), "byte 96: a coordinate of triangle 0");
+  auto open = box;
+  open.triangles.pop_back();
+  expect_contains(message(".stl", ascii_stl(open)), "is open at 3 edges");
+  expect_contains(message(".ply", ""), "neither .stl nor .obj");
+  expect_contains(failure([] { (void)hmps::read_obj<S>("no/such/file.obj"); }), "cannot open no/such/file.obj");
+  EXPECT_THROW((void)hmps::read_stl<S>(std::filesystem::temp_directory_path().string()), hmps::InputError);
+}
+
+}  // namespace
