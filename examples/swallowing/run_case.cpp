@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "run_case.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "build_scene.hpp"
+#include "checkpoint.hpp"
+#include "frames.hpp"
+#include "measure.hpp"
+#include "observe.hpp"
+#include "pictures.hpp"
+#include "progress.hpp"
+#include "series.hpp"
+#include "simulation.hpp"
+
+namespace swallowing {
+namespace {
+
+constexpr double sample_interval = 1e-3;      // s, simulated
+constexpr double checkpoint_interval = 0.02;  // s, simulated
+constexpr double volume_time = 1.667;         // s, when the paper states det F
+
+/// Times k * interval that come one after the other; `due` is true once for each.
+class Every {
+ public:
+  Every(double interval, double time_step) : interval_(interval), tolerance_(time_step / 2) {}
+  [[nodiscard]] bool due(double time) {
+    if (time < static_cast<double>(next_) * interval_ - tolerance_) return false;
+    next_ = static_cast<std::uint64_t>(std::floor((time + tolerance_) / interval_)) + 1;
+    return true;
+  }
+
+ private:
+  double interval_, tolerance_;
+  std::uint64_t next_ = 0;
+};
+
+/// All that the bits of a run depend on, as text.
+RunSettings fingerprint(const Options& options, const Case& chosen, double friction, double time_step, double penalty) {
+  const auto text = [](double value) { return hmps::message(std::hexfloat, value); };
+  return {{"case", std::string(chosen.name)},
+          {"scalar", options.single_precision ? "float" : "double"},
+          {"spacing", text(options.spacing)},
+          {"lattice shift", text(options.lattice_shift)},
+          {"region H", options.constrictors ? "yes" : "no"},
+          {"friction", text(friction)},
+          {"time step", text(time_step)},
+          {"penalty", text(penalty)}};
+}
+
+template <class S>
+class Run {
+ public:
+  Run(const Options& options, const Case& chosen)
+      : options_(options),
+        chosen_(chosen),
+        friction_(options.friction.value_or(chosen.friction)),
+        folder_(std::filesystem::path(options.out) / chosen.name),
+        data_(options.data.empty() ? SWALLOWING_DATA : options.data),
+        motion_(data_),
+        scene_(make_scene({.spacing = options.spacing,
+                           .lattice_shift = options.lattice_shift,
+                           .model = chosen.model,
+                           .constrictors = options.constrictors,
+                           .data = data_})),
+        simulation_(scene_, motion_, materials_,
+                    {.friction = friction_,
+                     .time_step = options.time_step,
+                     .penalty = options.penalty.value_or(0),
+                     .penalty_ratio = options.penalty_ratio.value_or(0),
+                     .threads = options.threads}),
+        settings_(fingerprint(options, chosen, friction_, simulation_.time_step(), simulation_.penalty())) {
+    std::filesystem::create_directories(folder_);
+    summary_.case_name = chosen.name;
+    summary_.scalar = options.single_precision ? "float" : "double";
+    summary_.threads = options.threads;
+    summary_.spacing = options.spacing;
+    summary_.friction = friction_;
+    summary_.penalty = simulation_.penalty();
+    summary_.time_step = simulation_.time_step();
+    summary_.time_step_limit = simulation_.step_limit().limit;
+    for (const int region : scene_.region) ++(region < 0 ? summary_.particles_free : summary_.particles_control);
+  }
+
+  Summary operator()() {
+    const auto before = options_.resume ? resume() : std::nullopt;
+    Series series(folder_ / "series.csv", before);
+    for (const Sample& sample : series.samples()) measure(sample);
+    Snapshots snapshots(folder_ / "snapshots", before);
+    std::optional<Frames> frames;
+    if (options_.frames) frames.emplace(folder_, before);
+
+    const auto start = std::chrono::steady_clock::now();
+    const auto first_step = simulation_.steps();
+    const double dt = simulation_.time_step();
+    Every sample(sample_interval, dt), frame(options_.frame_interval, dt), keep(checkpoint_interval, dt);
+    if (before) (void)sample.due(*before), (void)frame.due(*before), (void)keep.due(*before);
+    Progress progress(std::cerr, {.name = std::string(chosen_.name),
+                                  .start = simulation_.time(),
+                                  .until = options_.until,
+                                  .particles = scene_.reference.size(),
+                                  .terminal = is_terminal()});
+    describe_step();
+    double smallest_j = 1;
+    try {
+      for (;;) {
+        const double time = simulation_.time();
+        if (simulation_.steps() > 0 || !before) {
+          if (sample.due(time)) {
+            const Sample now =
+                observe(simulation_, scene_, materials_, std::exchange(penetration_, 0) / scene_.spacing);
+            smallest_j = now.smallest_j;
+            series.add(now);
+            measure(now);
+            snap(snapshots, time);
+          }
+          if (frames && frame.due(time)) add_frame(*frames, simulation_, scene_);
+          if (keep.due(time) && simulation_.steps() > first_step) checkpoint();
+        }
+        if (time >= options_.until - dt / 2) break;
+        simulation_.step();
+        penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
+        if (simulation_.steps() % 16 == 0) check(simulation_, scene_, materials_);
+        progress.update(simulation_.time(), simulation_.steps() - first_step, smallest_j);
+      }
+      checkpoint();
+    } catch (const hmps::StateError& error) {
+      summary_.failure = error.what();
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto steps = simulation_.steps() - first_step;
+    progress.finish(simulation_.time(), steps, smallest_j);
+    summary_.wall_seconds = wall_before_ + seconds;
+    contact_seconds_ += simulation_.contact_seconds();
+    finish(series);
+    draw_sheet(folder_ / "sheet.png", snapshots, title());
+    return summary_;
+  }
+
+ private:
+  void describe_step() const {
+    const auto& limit = simulation_.step_limit();
+    const auto organ = name(scene_.organ[limit.particle]);
+    std::cerr << chosen_.name << ": " << summary_.particles_free << " free and " << summary_.particles_control
+              << " control particles; step " << 1e6 * simulation_.time_step() << " us of at most " << 1e6 * limit.limit
+              << " us at rest, which particle " << limit.particle << " (" << organ << ") sets\n";
+  }
+
+  void measure(const Sample& now) {
+    fold_.add(now.time, now.tip_angle);
+    fold_base_.add(now.time, now.base_angle);
+    summary_.max_penetration = std::max(summary_.max_penetration, now.penetration);
+    if (!summary_.det_f && now.time >= volume_time - 1e-9 && std::abs(now.time - simulation_.time()) < 1e-9)
+      summary_.det_f = volume(simulation_, scene_);
+  }
+  void snap(const Snapshots& snapshots, double time) {
+    for (std::size_t panel = 0; panel < picture_times.size(); ++panel)
+      if (std::abs(time - picture_times[panel]) < sample_interval / 2)
+        snapshots.add(panel, snapshot(simulation_, scene_));
+  }
+  [[nodiscard]] std::string title() const {
+    return hmps::message("Case ", chosen_.name, ": model ", chosen_.model == Model::X ? "X" : "Y", ", friction ",
+                         friction_, ", spacing ", 1e3 * options_.spacing, " mm");
+  }
+  void finish(const Series& series) {
+    summary_.time = simulation_.time();
+    summary_.steps = simulation_.steps();
+    summary_.fold_time = fold_.time();
+    summary_.fold_time_base = fold_base_.time();
+    summary_.tip_angle_min = fold_.smallest();
+    summary_.particle_steps_per_second =
+        static_cast<double>(summary_.steps * scene_.reference.size()) / std::max(summary_.wall_seconds, 1e-9);
+    summary_.contact_share = contact_seconds_ / std::max(summary_.wall_seconds, 1e-9);
+    (void)series;
+    write_summary(folder_ / "summary.json", summary_);
+  }
+
+  [[nodiscard]] std::filesystem::path checkpoint_file() const { return folder_ / "checkpoint.bin"; }
+  void checkpoint() {
+    Checkpoint state;
+    state.settings = settings_;
+    state.time = simulation_.time();
+    state.step = simulation_.steps();
+    state.set("positions", positions());
+    state.set("velocities", simulation_.velocity_array());
+    state.set("penetration", penetration_);
+    if (summary_.det_f)
+      state.set("det F", std::array{summary_.det_f->mean, summary_.det_f->share_within_0_98_1_02, summary_.det_f->min,
+                                    summary_.det_f->max});
+    state.set("seconds", std::array{summary_.wall_seconds, contact_seconds_});
+    state.save(checkpoint_file());
+  }
+  std::optional<double> resume() {
+    const std::optional<Checkpoint> state = Checkpoint::load(checkpoint_file());
+    if (!state) return std::nullopt;
+    require_same_settings(*state, settings_, checkpoint_file());
+    std::vector<std::array<double, 3>> x(scene_.reference.size());
+    state->get("positions", x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      simulation_.position_array()[i] = Eigen::Vector3d(x[i][0], x[i][1], x[i][2]);
+    state->get("velocities", simulation_.velocity_array());
+    penetration_ = state->value<double>("penetration");
+    const auto seconds = state->get<double>("seconds");
+    wall_before_ = seconds[0], contact_seconds_ = seconds[1];
+    simulation_.resume(state->step);
+    return state->time;
+  }
+  [[nodiscard]] std::vector<std::array<double, 3>> positions() {
+    std::vector<std::array<double, 3>> x;
+    for (const auto& p : simulation_.position_array()) x.push_back({p[0], p[1], p[2]});
+    return x;
+  }
+
+  Options options_;
+  Case chosen_;
+  double friction_;
+  std::filesystem::path folder_, data_;
+  Materials materials_;
+  Motion motion_;
+  Scene scene_;
+  Simulation<S> simulation_;
+  RunSettings settings_;
+  Summary summary_;
+  FoldTime fold_, fold_base_;
+  double penetration_ = 0;  ///< m, largest since the last sample
+  double wall_before_ = 0, contact_seconds_ = 0;
+};
+
+}  // namespace
+
+Summary run_case(const Options& options, const Case& chosen) {
+  if (options.single_precision) return Run<float>(options, chosen)();
+  return Run<double>(options, chosen)();
+}
+
+}  // namespace swallowing

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <hmps/contact/contact.hpp>
+#include <hmps/elastic/elastic_force.hpp>
+#include <hmps/elastic/mooney_rivlin.hpp>
+#include <hmps/executors/openmp.hpp>
+#include <hmps/force/internal_force.hpp>
+#include <hmps/motion/control_region.hpp>
+#include <hmps/neighbours/lattice_bonds.hpp>
+#include <hmps/stabilise/artificial.hpp>
+#include <hmps/time/stable_step.hpp>
+#include <hmps/time/symplectic_euler.hpp>
+#include <hmps/viscosity/viscous.hpp>
+#include <vector>
+
+#include "materials.hpp"
+#include "motion.hpp"
+#include "scene.hpp"
+
+namespace swallowing {
+
+/// The swallow in time: the components of the library, composed as section 2.1 of the paper has it.
+/// `S` is the scalar of velocities and forces; positions are kept in double, since a step moves a
+/// particle by less than a float resolves.
+template <class S>
+class Simulation {
+ public:
+  struct Settings {
+    double friction = 0.1;
+    double time_step = 0;      ///< s; 0: the largest that is stable with the penalty of the materials
+    double penalty = 0;        ///< k in N/m4; 0: from the ratio and the step by \paper{25}
+    double penalty_ratio = 0;  ///< k~ of \paper{25}; 0: that of the materials
+    int threads = 1;
+  };
+
+  Simulation(const Scene& scene, const Motion& motion, const Materials& materials, const Settings& settings)
+      : scene_(&scene),
+        materials_(materials),
+        execute_{settings.threads},
+        x_(scene.reference.size()),
+        v_(3 * x_.size(), S(0)),
+        f_(3 * x_.size()),
+        F_(9 * x_.size(), S(0)),
+        modulus_(young_per_particle(scene, materials)),
+        bonds_(hmps::vectors(scene.reference).part(0, scene.elastic_count), {.spacing = scene.spacing},
+               [&scene](std::size_t i, std::size_t j) { return scene.bonded(i, j); }),
+        force_(hmps::internal_force(bonds_, hmps::record(body(gradients())), hmps::elastic(Tissue{this}),
+                                    hmps::artificial(Stabiliser{this}),
+                                    hmps::viscous(materials.density, materials.kinematic_viscosity))),
+        step_limit_(limit()),
+        time_step_(settings.time_step > 0 ? settings.time_step : chosen_step(settings)),
+        penalty_(settings.penalty > 0 ? settings.penalty
+                                      : ratio(settings) * materials.density / (time_step_ * time_step_)),
+        contact_({.spacing = scene.spacing,
+                  .density = materials.density,
+                  .friction = settings.friction,
+                  .stiffness = hmps::PenaltyStiffness::fixed(penalty_)}) {
+    x_ = scene.reference;
+    for (std::size_t i = 0; i < x_.size(); ++i) gradients().set(i, Eigen::Matrix3d::Identity());
+    add_contacts();
+    add_regions(motion);
+  }
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// One step of the paper's scheme, \paper{2, 3, 4}.
+  void step() {
+    const auto x = positions();
+    const auto v = velocities();
+    force_(body(x), body(v), body(forces()), execute_);
+    hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
+
+    const auto start = std::chrono::steady_clock::now();
+    std::fill(f_.begin(), f_.end(), S(0));
+    report_ = contact_(x, v, gradients(), time_step_, forces(), execute_);
+    hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
+    contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    ++steps_;
+    for (const auto& region : regions_)
+      region.prescribe(time(), time_step_, x, v, hmps::Serial{}, materials_.speed_limit);
+    hmps::drift(x, v, time_step_, execute_);
+  }
+
+  [[nodiscard]] double time() const { return static_cast<double>(steps_) * time_step_; }
+  [[nodiscard]] double time_step() const { return time_step_; }
+  [[nodiscard]] double penalty() const { return penalty_; }
+  /// The largest stable step of the body without contact, and the particle that limits it.
+  [[nodiscard]] const hmps::StableStep& step_limit() const { return step_limit_; }
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  [[nodiscard]] double contact_seconds() const { return contact_seconds_; }
+  [[nodiscard]] const hmps::ContactReport<S>& contact_report() const { return report_; }
+
+  [[nodiscard]] auto positions() { return hmps::vectors(x_); }
+  [[nodiscard]] hmps::VectorView<S, 3> velocities() { return structure_of_arrays<3>(v_); }
+  [[nodiscard]] hmps::MatrixView<S, 3> gradients() { return structure_of_arrays<9>(F_); }
+  /// The part of a view that holds the deforming body, without the plates.
+  template <class View>
+  [[nodiscard]] View body(const View& view) const {
+    return view.part(0, scene_->elastic_count);
+  }
+  [[nodiscard]] const hmps::LatticeBonds<S, 3>& bonds() const { return bonds_; }
+  [[nodiscard]] const hmps::OpenMP& executor() const { return execute_; }
+
+  /// The state that the next step starts from: with it a run goes on to the same bits.
+  [[nodiscard]] std::vector<Eigen::Vector3d>& position_array() { return x_; }
+  [[nodiscard]] std::vector<S>& velocity_array() { return v_; }
+  void resume(std::uint64_t steps) {
+    steps_ = steps;
+    contact_.refresh();
+  }
+
+ private:
+  /// The law of each particle: C1 = C2 from its Young's modulus by \paper{18}.
+  struct Tissue {
+    const Simulation* simulation;
+    template <class At>
+    [[nodiscard]] auto operator()(const At& at) const {
+      const auto young = at(hmps::scalars(simulation->modulus_));
+      using T = std::remove_const_t<decltype(young)>;
+      return hmps::MooneyRivlin<T>::from_young(young, T(simulation->materials_.d1));
+    }
+  };
+  /// E_hat of each particle.
+  struct Stabiliser {
+    const Simulation* simulation;
+    template <class At>
+    [[nodiscard]] auto operator()(const At& at) const {
+      return at(hmps::scalars(simulation->modulus_)) * S(simulation->materials_.stabiliser_ratio);
+    }
+  };
+
+  template <int N>
+  [[nodiscard]] hmps::View<S, N> structure_of_arrays(std::vector<S>& values) const {
+    std::array<S*, N> base{};
+    for (std::size_t c = 0; c < N; ++c) base[c] = values.data() + c * x_.size();
+    return {base, x_.size(), sizeof(S)};
+  }
+  [[nodiscard]] hmps::VectorView<S, 3> forces() { return structure_of_arrays<3>(f_); }
+
+  [[nodiscard]] static std::vector<S> young_per_particle(const Scene& scene, const Materials& materials) {
+    std::vector<S> young;
+    for (const Organ organ : scene.organ) young.push_back(static_cast<S>(materials.young_of(organ)));
+    return young;
+  }
+
+  [[nodiscard]] hmps::StableStep limit() {
+    std::vector<std::uint8_t> moves(scene_->elastic_count);
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = scene_->region[i] < 0 ? 1 : 0;
+    x_ = scene_->reference;
+    return hmps::stable_step([this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); },
+                             body(positions()), body(velocities()), materials_.density,
+                             {.spacing = scene_->spacing, .moves = [moves](std::size_t i) { return moves[i] != 0; }},
+                             execute_);
+  }
+  [[nodiscard]] double ratio(const Settings& settings) const {
+    return settings.penalty_ratio > 0 ? settings.penalty_ratio : materials_.penalty_ratio;
+  }
+  /// A whole number of steps in a millisecond, so that samples and pictures fall on steps.
+  [[nodiscard]] double chosen_step(const Settings& settings) const {
+    const double stable = step_limit_.step * materials_.step_share * std::sqrt(1 - ratio(settings));
+    return 1e-3 / std::ceil(1e-3 / stable);
+  }
+
+  void add_contacts() {
+    const auto prescribed = [this](hmps::Index i) { return scene_->region[i] >= 0; };
+    for (const ContactPair& pair : scene_->contacts) {
+      const auto organ = [&](Organ name, const auto& slaves, const auto& masters) {
+        return contact_.add_organ({.name = std::string(swallowing::name(name)),
+                                   .slaves = slaves,
+                                   .masters = masters,
+                                   .prescribed = prescribed});
+      };
+      contact_.add_pair(organ(pair.first, pair.first_slaves, pair.first_masters),
+                        organ(pair.second, pair.second_slaves, pair.second_masters));
+    }
+  }
+  void add_regions(const Motion& motion) {
+    const auto particles = scene_->particles_of_regions();
+    for (std::size_t r = 0; r < particles.size(); ++r)
+      if (!particles[r].empty())
+        regions_.emplace_back(particles[r], hmps::vectors(scene_->reference),
+                              [&motion, region = scene_->regions[r]](double t) { return motion(region, t); });
+  }
+
+  const Scene* scene_;
+  Materials materials_;
+  hmps::OpenMP execute_;
+  std::vector<Eigen::Vector3d> x_;
+  std::vector<S> v_, f_, F_, modulus_;
+  hmps::LatticeBonds<S, 3> bonds_;
+  decltype(hmps::internal_force(std::declval<const hmps::LatticeBonds<S, 3>&>(),
+                                hmps::record(std::declval<hmps::MatrixView<S, 3>>()),
+                                hmps::elastic(std::declval<Tissue>()), hmps::artificial(std::declval<Stabiliser>()),
+                                hmps::viscous(1.0, 1.0))) force_;
+  hmps::StableStep step_limit_;
+  double time_step_, penalty_;
+  hmps::MetaballContact<S, 3> contact_;
+  std::vector<hmps::ControlRegion<double, 3>> regions_;
+  hmps::ContactReport<S> report_;
+  std::uint64_t steps_ = 0;
+  double contact_seconds_ = 0;
+};
+
+}  // namespace swallowing
