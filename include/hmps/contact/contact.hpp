@@ -44,7 +44,10 @@ struct ContactReport {
   S penetration = 0;           ///< The largest p in m.
   Index deepest = 0;           ///< Its slave.
   std::size_t candidates = 0;  ///< Slave-master pairs on the lists.
-  std::size_t rebuilds = 0;    ///< How often the lists were built so far.
+  std::size_t rebuilds = 0;    ///< How often the grid search ran so far.
+  /// How often so far particles turned out to have been faster than twice the speeds that the lists
+  /// were chosen for, so that a touch may have been seen a few steps late. Zero in a sane run.
+  std::size_t late = 0;
 };
 
 /// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
@@ -140,6 +143,7 @@ class MetaballContact {
   };
   struct Batch {
     std::size_t count, deep;
+    bool strayed;
   };
   static constexpr std::size_t batch = 64;
 
@@ -149,13 +153,13 @@ class MetaballContact {
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, bool& deep);
 
-  template <class V>
-  void resize(const V&);
+  void resize();
+  template <class X, class G, class E>
+  bool gather(const X& x, const G& F, const E& execute);
 
   ContactSettings settings_;
   NormalDensity<S, D, Ball> normal_density_;
   Lists lists_;
-  std::size_t sized_for_ = 0;
   std::vector<Master> masters_;  // per slot
   std::vector<S> ball_;          // per candidate: c
   std::vector<RowState> state_;  // per row

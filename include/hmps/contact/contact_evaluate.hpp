@@ -52,6 +52,45 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   return true;
 }
 
+/// Makes room for what the present lists name.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+void MetaballContact<S, D, Ball, Friction>::resize() {
+  const std::size_t row_count = lists_.rows.size() - 1, slot_count = lists_.slot_member.size();
+  masters_.resize(slot_count);
+  slot_hit_.resize(slot_count);
+  ball_.resize(lists_.slot_of.size());
+  state_.resize(row_count);
+  row_hit_.resize(row_count);
+  batch_rows_.resize(row_count);
+  touching_.reserve(row_count);
+  batches_.resize((std::max(row_count, slot_count) + batch - 1) / batch);
+  load_.resize(lists_.touched.size());
+}
+
+/// F_j^-1 once per master. True if a master has moved further than the lists bear.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class X, class G, class E>
+bool MetaballContact<S, D, Ball, Friction>::gather(const X& x, const G& F, const E& execute) {
+  const std::size_t slot_count = masters_.size(), count = (slot_count + batch - 1) / batch;
+  execute(count, [&](std::size_t q) {
+    bool strayed = false;
+    for (std::size_t l = q * batch; l < std::min(slot_count, (q + 1) * batch); ++l) {
+      Master& master = masters_[l];
+      const Index j = lists_.slot_particle[l];
+      master.x = x[j].template cast<S>();
+      // A master squashed flat is no wall: as this is not finite, every comparison with it fails.
+      master.B = inverse<S, D>(F[j].template cast<S>());
+      master.compression = detail::stretch_bound<S, D>(master.B);
+      slot_hit_[l] = 0;
+      strayed = strayed || lists_.strayed(l, master.x);
+    }
+    batches_[q].strayed = strayed;
+  });
+  for (std::size_t q = 0; q < count; ++q)
+    if (batches_[q].strayed) return true;
+  return false;
+}
+
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class T, class E>
 ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, const V& v, const G& F, double dt,
@@ -59,52 +98,36 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
   require(dt > 0 && std::isfinite(dt), "hmps: the step of a contact evaluation is ", dt, " s; give a positive number");
   require_size(v, x.size(), "velocities");
   require_size(f, x.size(), "contact forces");
-  require(x.size() > lists_.largest_particle(), "hmps: an organ names particle ", lists_.largest_particle(),
+  require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
           " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
-  const S l0 = normal_density_.spacing();
-  lists_.update(x, F, static_cast<S>(Ball::radius) * l0, static_cast<S>(settings_.skin) * l0, execute);
-  const std::size_t row_count = lists_.rows.size() - 1, slot_count = lists_.slot_particle.size();
-  if (lists_.rebuilds != sized_for_) {
-    masters_.resize(slot_count);
-    ball_.resize(lists_.slot_of.size());
-    state_.resize(row_count);
-    row_hit_.resize(row_count);
-    slot_hit_.resize(slot_count);
-    batch_rows_.resize(row_count);
-    touching_.reserve(row_count);
-    batches_.resize((row_count + batch - 1) / batch);
-    load_.resize(lists_.touched.size());
-    sized_for_ = lists_.rebuilds;
+  const S l0 = normal_density_.spacing(), radius = static_cast<S>(Ball::radius) * l0;
+  const S step = static_cast<S>(dt), skin = static_cast<S>(settings_.skin) * l0;
+  if (lists_.update(x, v, F, step, radius, skin, execute)) resize();
+  if (gather(x, F, execute)) {
+    lists_.check(x, v, F, step, radius, skin, execute);
+    resize();
+    gather(x, F, execute);
   }
+  const std::size_t row_count = lists_.rows.size() - 1;
   ContactReport<S> report;
   report.candidates = lists_.slot_of.size();
   report.rebuilds = lists_.rebuilds;
+  report.late = lists_.late;
   touching_.clear();
   if (row_count == 0) return report;
 
-  // F_j^-1 once per master.
-  execute(slot_count, [&](std::size_t l) {
-    Master& master = masters_[l];
-    const Index j = lists_.slot_particle[l];
-    slot_hit_[l] = 0;
-    master.x = x[j].template cast<S>();
-    master.B = inverse<S, D>(F[j].template cast<S>());
-    master.compression = detail::stretch_bound<S, D>(master.B);
-    // A master squashed flat is no wall; as it is not finite, every comparison with it fails.
-  });
-
-  execute(batches_.size(), [&](std::size_t q) {
+  execute((row_count + batch - 1) / batch, [&](std::size_t q) {
     std::size_t count = 0, deep = 0;
     const std::size_t first = q * batch, last = std::min(row_count, first + batch);
     for (std::size_t r = first; r < last; ++r) {
       bool is_deep = false;
-      row_hit_[r] = lists_.rows[r].gap <= lists_.sides[lists_.rows[r].side].motion && touch(r, x, v, F, is_deep);
+      row_hit_[r] = touch(r, x, v, F, is_deep);
       if (row_hit_[r]) batch_rows_[first + count++] = static_cast<Index>(r);
       deep += is_deep;
     }
-    batches_[q] = {count, deep};
+    batches_[q] = {count, deep, false};
   });
-  for (std::size_t q = 0; q < batches_.size(); ++q) {
+  for (std::size_t q = 0; q < (row_count + batch - 1) / batch; ++q) {
     for (std::size_t k = 0; k < batches_[q].count; ++k) touching_.push_back(batch_rows_[q * batch + k]);
     report.deep += batches_[q].deep;
   }
