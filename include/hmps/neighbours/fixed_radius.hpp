@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <nanoflann.hpp>
@@ -56,8 +55,11 @@ class WithinRadius {
     if (squared_distance <= squared_radius_) found_.push_back(index);
     return true;
   }
-  /// Just beyond the ball, since nanoflann drops what lies at this distance.
-  [[nodiscard]] S worstDist() const { return std::nextafter(squared_radius_, std::numeric_limits<S>::infinity()); }
+  /// Just beyond the ball: nanoflann drops what lies at this distance, and whole branches by bounds
+  /// of the distance that carry the rounding of a sum.
+  [[nodiscard]] S worstDist() const {
+    return squared_radius_ * (1 + 16 * std::numeric_limits<S>::epsilon()) + std::numeric_limits<S>::min();
+  }
   [[nodiscard]] bool full() const { return true; }
   [[nodiscard]] std::size_t size() const { return found_.size(); }
 
