@@ -78,7 +78,7 @@ struct Epiglottis {
   [[nodiscard]] double arc(const Point& x) const { return leaf.arc(x); }
   /// Flat faces and square edges: a superelliptic section would thin the edges to one particle.
   [[nodiscard]] double operator()(const Point& x) const {
-    if (std::abs(x[1]) > 13 || x[0] < -16 || x[0] > 12 || x[2] < 10 || x[2] > 54) return 1;
+    if (std::abs(x[1]) > 13 || x[0] < -16 || x[0] > 12 || x[2] < 10 || x[2] > 54) return 10;
     const double s = leaf.arc(x);
     const Point centre = midline(s);
     const double angle = (76 - 14 * s / length) * std::numbers::pi / 180;
@@ -94,21 +94,21 @@ struct Epiglottis {
 struct Tongue {
   Point centre{-36, 0, 55};
   /// angle, radius of the surface, half width, thickness of the shell
-  Rows<4> profile{{{-66, 31.5, 18, 9.6},
-                   {-60, 31.4, 19, 9.6},
-                   {-44, 31, 21, 9.6},
-                   {-25, 30.4, 22.5, 9.6},
-                   {0, 30.7, 23.5, 9.6},
-                   {10, 31.2, 23.5, 9.6},
-                   {20, 32.4, 23.5, 9.6},
-                   {33.5, 34.6, 23.5, 9.6},
-                   {47, 36.5, 23, 9},
-                   {62, 37.4, 22.5, 7},
-                   {90, 36.8, 22, 5.4},
-                   {118, 38, 20.5, 5.4},
-                   {137, 40.7, 18, 5.4},
-                   {150.6, 42.8, 14, 5.4},
-                   {158, 43, 11, 5.4}}};
+  Rows<4> profile{{{-66, 31.5, 18, 8.6},
+                   {-60, 31.4, 19, 8.6},
+                   {-44, 31, 21, 8.6},
+                   {-25, 30.4, 22.5, 8.6},
+                   {0, 30.7, 23.5, 8.6},
+                   {10, 31.2, 23.5, 8.6},
+                   {20, 32.4, 23.5, 8.6},
+                   {33.5, 34.6, 23.5, 8.6},
+                   {47, 36.5, 23, 8},
+                   {62, 37.4, 22.5, 6.6},
+                   {90, 36.8, 22, 5.8},
+                   {118, 38, 20.5, 5.8},
+                   {137, 40.7, 18, 5.8},
+                   {150.6, 42.8, 14, 5.8},
+                   {158, 43, 11, 5.8}}};
   struct Polar {
     double angle, radius;
     std::array<double, 4> row;
@@ -123,7 +123,7 @@ struct Tongue {
     const auto [_, R, W, t] = row;
     const double outer = hmps::superellipse(radius, x[1], R, W, 2.6);
     const double inner = hmps::superellipse(radius, x[1], R - t, W - t, 2.6);
-    return std::max({outer, -inner, R - t - 5 - radius});
+    return std::max({outer, -inner, R - t - 4.5 - radius});
   }
 };
 
@@ -170,7 +170,7 @@ struct HardPalate {
 /// Larynx and upper trachea: a tube with the glottis, cut by the oblique rim of the inlet, and the
 /// arytenoids on its back.
 struct Larynx {
-  static constexpr double bottom = -34;
+  static constexpr double bottom = -30;
   hmps::Stack<double> airway{{{-50, {-1.3, 0}, {7.2, 7.2}},
                               {-14, {-1.3, 0}, {7.1, 7.1}},
                               {-8, {-1.3, 0}, {7.0, 6.6}},
@@ -195,8 +195,8 @@ struct Larynx {
 /// open to the front; below, its front wall is the floor of the vallecula and of the pyriform
 /// sinuses, and further down the back of the cricoid.
 struct Pharynx {
-  static constexpr double bottom = -34;
-  static constexpr double top = 97.5;
+  static constexpr double bottom = -30;
+  static constexpr double top = 96;
   static constexpr double closed_below = 31;  ///< mm, upper edge of the front wall
   static constexpr double esophagus_below = -9;
   /// z: widest at x, surface of the posterior wall, half width, surface of the front wall
@@ -211,9 +211,9 @@ struct Pharynx {
                    {20, -4.3, 13.7, 16, -11.3},
                    {31, -4.3, 13.7, 16.1, -12.5},
                    {70, -4.3, 13.7, 16.1, -12.5},
-                   {80, -3.6, 13.0, 15, -12.5},
-                   {90, -3, 11, 13.6, -12.5},
-                   {98, -2.6, 10.5, 12.8, -12.5}}};
+                   {78, -3.8, 12.7, 15.2, -12.5},
+                   {87, -3.2, 9, 13.8, -12.5},
+                   {98, -2.6, 8.5, 12.8, -12.5}}};
 
   /// Less than one inside of the channel, homogeneous of degree one about its axis.
   [[nodiscard]] double level(const Point& x) const {
@@ -234,7 +234,10 @@ struct Pharynx {
       shift[c] = e;
       slope[c] = (level(x + shift) - level(x - shift)) / (2 * e);
     }
-    return (level(x) - 1) / std::max(slope.norm(), 1e-3);
+    const double above = level(x) - 1;
+    // Far outside, where the channel narrows quickly, the slope along z would make everything look near.
+    const double across = above / std::max(slope.head<2>().norm(), 1e-3);
+    return across > 2 * wall ? across : above / std::max(slope.norm(), 1e-3);
   }
   [[nodiscard]] double ends(const Point& x) const {
     const double front = x[2] > closed_below ? (x[2] < 76 ? -16.0 : -14.0) - x[0] : -1.0;
@@ -257,8 +260,9 @@ struct Anatomy {
   Larynx larynx;
   Pharynx pharynx;
 
-  static constexpr double strip = 2.6;      ///< mm, thickness of region G
+  static constexpr double strip = 4.8;      ///< mm, thickness of region G
   static constexpr double strip_width = 5;  ///< mm, its half width
+  static constexpr double plate = 3.6;      ///< mm, least thickness of the plates H
   static constexpr double plate_gap = 1.9;  ///< mm between the wall and the plates H
 
   /// The organ at `x` (mm) of the body that deforms, `none` in the air and outside. Where shapes overlap they are one

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <hmps/neighbours/shape_tensor.hpp>
-#include <hmps/neighbours/weight.hpp>
 #include <hmps/shapes/lattice.hpp>
+#include <hmps/shapes/support.hpp>
+#include <hmps/shapes/thicken.hpp>
 #include <numbers>
 #include <queue>
 #include <utility>
@@ -19,8 +19,6 @@ namespace swallowing {
 
 namespace detail {
 
-/// Smallest eigenvalue of A, \paper{12}, in squared spacings that a particle may have.
-inline constexpr double least_support = 0.75;
 /// mm along the body from a joint of two organs within which they do not touch.
 inline constexpr double attachment = 5.0;
 
@@ -29,60 +27,44 @@ struct Body {
   std::vector<Point> points;  ///< m
   std::vector<Organ> organ;
   std::vector<std::vector<std::pair<std::size_t, Point>>> bonds;  ///< neighbours and r0
-  std::vector<std::array<hmps::Index, 2>> cut;
+  std::vector<std::array<hmps::Index, 2>> cut;                    ///< sorted pairs between which there is air
+  std::size_t removed = 0;
 
-  Body(const Anatomy& anatomy, std::vector<Point> places, double spacing) : points(std::move(places)) {
-    for (const Point& x : points) organ.push_back(anatomy.organ_at(1e3 * x));
+  /// The lattice sites in the organs. The thin edges of the epiglottis keep too few neighbours on a coarse lattice:
+  /// they are filled up, and weakly supported particles elsewhere left out.
+  Body(const Anatomy& anatomy, const hmps::Box<double, 3>& box, double spacing, const Point& origin) {
+    const auto inside = [&](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
+    points = hmps::fill_lattice(inside, box, spacing, origin);
+    const std::size_t drawn = points.size();
+    const auto fill_up = [&](const Point& x) { return anatomy.epiglottis(1e3 * x) < 0.5e3 * spacing; };
+    for (const Point& x : hmps::thicken(hmps::vectors(points), {.spacing = spacing}, fill_up)) points.push_back(x);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      organ.push_back(i < drawn ? anatomy.organ_at(1e3 * points[i]) : Organ::epiglottis);
+
     const LatticeGraph graph(points, spacing);
     bonds.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
       graph.around(i, [&](std::size_t j, const Point& r0) {
-        // Air is looked for once per pair, so that both see the same.
-        if (j > i && air_between(anatomy, 1e3 * points[i], 1e3 * points[j]))
-          cut.push_back({static_cast<hmps::Index>(i), static_cast<hmps::Index>(j)});
-        else if (j > i)
+        if (j < i) return;  // Air is looked for once per pair, so that both see the same.
+        const bool one_epiglottis = std::max(i, j) >= drawn && organ[i] == organ[j];
+        if (!one_epiglottis && air_between(anatomy, 1e3 * points[i], 1e3 * points[j]))
+          cut.push_back(ordered(i, j));
+        else
           bonds[i].emplace_back(j, r0), bonds[j].emplace_back(i, Point(-r0));
       });
     std::sort(cut.begin(), cut.end());
+    keep(supported(spacing));
+    removed = drawn - std::min(drawn, points.size());
   }
 
-  [[nodiscard]] double support(std::size_t i, double spacing, const std::vector<char>& kept) const {
-    hmps::ShapeTensor<3> shape;
-    for (const auto& [j, r0] : bonds[i])
-      if (kept[j]) shape.add(r0, hmps::PaperWeight{}(r0.norm(), 1.75 * spacing));
-    return shape.support() / (spacing * spacing);
-  }
-
-  /// Which particles to keep: the largest connected part without weakly supported particles.
+  /// Which particles to keep: all but weakly supported ones, until there is none, and loose bits.
   [[nodiscard]] std::vector<char> supported(double spacing) const {
-    std::vector<char> kept(points.size(), 1);
-    for (bool changed = true; changed;) {
-      changed = false;
-      std::vector<std::size_t> weak;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        if (kept[i] && support(i, spacing, kept) < least_support) weak.push_back(i);
-      for (const std::size_t i : weak) kept[i] = 0, changed = true;
-    }
-    // The hard palate hangs on the soft palate and everything else on each other: one body.
-    std::vector<int> part(points.size(), -1);
-    std::vector<std::size_t> sizes;
-    for (std::size_t seed = 0; seed < points.size(); ++seed) {
-      if (!kept[seed] || part[seed] >= 0) continue;
-      const int number = static_cast<int>(sizes.size());
-      sizes.push_back(0);
-      std::vector<std::size_t> front{seed};
-      part[seed] = number;
-      while (!front.empty()) {
-        const std::size_t i = front.back();
-        front.pop_back();
-        ++sizes.back();
-        for (const auto& [j, r0] : bonds[i])
-          if (kept[j] && part[j] < 0) part[j] = number, front.push_back(j);
-      }
-    }
-    const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (part[i] != largest) kept[i] = 0;
+    const auto bonded = [this](std::size_t i, std::size_t j) {
+      return !std::binary_search(cut.begin(), cut.end(), ordered(i, j));
+    };
+    std::vector<char> kept(points.size(), 0);
+    for (const hmps::Index i : hmps::remove_weak(hmps::vectors(points), {.spacing = spacing}, hmps::KeepNone{}, bonded))
+      kept[i] = 1;
     return kept;
   }
 
@@ -173,7 +155,8 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const hmps::B
     const double angle = std::atan2(std::abs(x[1]), x[0] - anatomy.pharynx.profile(x[2])[1]) * 180 / std::numbers::pi;
     if (angle < 25 || angle > 90 || x[2] > doors.front().top || x[2] < doors.back().bottom) return 1.0;
     const double d = anatomy.pharynx.channel(x);
-    return std::max(from - d, d - from - 2e3 * l0);
+    // Two layers of particles carry all of a metaball wall, whatever the spacing.
+    return std::max(from - d, d - from - std::max(2e3 * l0, Anatomy::plate));
   };
   const auto points = hmps::fill_lattice(plate, box, l0, origin);
   const std::size_t first_door = scene.regions.size();
@@ -207,15 +190,12 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const hmps::B
   // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other.
   const Point origin = l0 * Point(settings.lattice_shift, 0.5, settings.lattice_shift);
 
-  const auto inside = [&](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
-  detail::Body body(anatomy, hmps::fill_lattice(inside, box, l0, origin), l0);
-  const std::size_t sites = body.points.size();
-  body.keep(body.supported(l0));
+  const detail::Body body(anatomy, box, l0, origin);
 
   Scene scene;
   scene.spacing = l0;
   scene.elastic_count = body.points.size();
-  scene.removed = sites - body.points.size();
+  scene.removed = body.removed;
   scene.regions = body_regions();
   scene.organ = body.organ;
   scene.cut = body.cut;

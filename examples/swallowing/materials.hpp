@@ -16,6 +16,9 @@ struct Materials {
   double density = 1000;              ///< kg/m3
   double kinematic_viscosity = 2e-3;  ///< m2/s, nu of \paper{21}
   double penalty_ratio = 0.3;         ///< k~ of \paper{25}
+  double stabiliser_ratio = 1;        ///< E_hat over Young's modulus
+  double step_share = 0.85;           ///< of the largest stable step at rest: the body stretches as it swallows
+  double speed_limit = 20;            ///< m/s: half the speed of sound; nothing in a swallow is as fast
 
   [[nodiscard]] double young_of(Organ organ) const { return organ == Organ::epiglottis ? young_epiglottis : young; }
   /// The law of an organ: C1 = C2 from Young's modulus by \paper{18}.

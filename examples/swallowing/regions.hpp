@@ -54,14 +54,14 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
     case Organ::vertebrae:
       return G;
     case Organ::pharynx:
-      return x[2] > 92.5 ? G : -1;
+      return x[2] > 91 ? G : -1;
     case Organ::tongue: {
       const auto [angle, radius, row] = anatomy.tongue.polar(x);
       const double depth = row[1] - radius;
       if (y < 6 && depth < 4.8)
         for (std::size_t k = 0; k < tongue_regions.size(); ++k)
           if (std::abs(angle - tongue_regions[k].angle) < tongue_regions[k].half) return B + static_cast<int>(k);
-      if ((angle > 70 && y > 0.74 * row[2] && depth < 9.5) || (angle > 143 && depth < 6)) return A;
+      if ((angle > 62 && y > 0.74 * row[2] && depth < 9.5) || (angle > 143 && depth < 6)) return A;
       return -1;
     }
     case Organ::soft_palate: {
@@ -71,7 +71,7 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
       return -1;
     }
     case Organ::larynx: {
-      if (x[2] > -22 && x[2] < -8 && anatomy.larynx.outside(x) < 0) return C;
+      if (x[2] > -23 && x[2] < -7 && anatomy.larynx.outside(x) < 0) return C;
       if (std::abs(x[0] - 6.5) < 3 && std::abs(y - 6) < 3 && x[2] > 1 && x[2] < 9) return x[1] < 0 ? D : D + 1;
       return -1;
     }

@@ -38,6 +38,12 @@ struct ContactPair {
   std::vector<hmps::Index> second_slaves, second_masters;
 };
 
+namespace detail {
+[[nodiscard]] inline std::array<hmps::Index, 2> ordered(std::size_t i, std::size_t j) {
+  return {static_cast<hmps::Index>(std::min(i, j)), static_cast<hmps::Index>(std::max(i, j))};
+}
+}  // namespace detail
+
 /// All particles of the swallow in their reference configuration. The deforming body comes first,
 /// then the rigid plates of region H, which take part in contact only.
 struct Scene {
@@ -56,9 +62,7 @@ struct Scene {
 
   /// Whether two particles of the body are bonded if they are near enough: not across an air gap.
   [[nodiscard]] bool bonded(std::size_t i, std::size_t j) const {
-    const std::array<hmps::Index, 2> pair{static_cast<hmps::Index>(std::min(i, j)),
-                                          static_cast<hmps::Index>(std::max(i, j))};
-    return !std::binary_search(cut.begin(), cut.end(), pair);
+    return !std::binary_search(cut.begin(), cut.end(), detail::ordered(i, j));
   }
   /// The particles of each region, in the order of `regions`.
   [[nodiscard]] std::vector<std::vector<hmps::Index>> particles_of_regions() const {
@@ -99,7 +103,6 @@ class LatticeGraph {
           if (const std::size_t j = a || b || c ? neighbour(i, a, b, c) : nobody; j != nobody)
             visit(j, Point(spacing_ * Point(a, b, c)));
   }
-  void remove(std::size_t i) { index_.erase(key(cells_[i])); }
 
  private:
   [[nodiscard]] static std::int64_t key(const std::array<int, 3>& c) {
