@@ -16,7 +16,8 @@ struct Cell {                                              // no type of the lib
 };
 
 int main() {
-  const double l0 = 2e-3, rho = 1000, dt = 3e-5, spin = 100, radius = 12e-3;  // m, kg/m3, s, rad/s, m
+  const double l0 = 2e-3, rho = 1000, dt = 3e-5, spin = 100, radius = 12.5e-3;  // m, kg/m3, s, rad/s, m
+  const double volume = l0 * l0 * l0;
   const hmps::Ball<double, 3> ball{.radius = radius};
   const hmps::Box<double, 3> box{Eigen::Vector3d::Constant(-radius), Eigen::Vector3d::Constant(radius)};
   std::vector<Cell> cells;
@@ -34,15 +35,12 @@ int main() {
   for (int step = 0; step <= 2000; ++step) {
     force(x, v, f);
     if (step % 250 == 0) {
-      double angular = 0, reach = 0, volume = 0;
-      for (const Cell& c : cells) {
-        angular += rho * l0 * l0 * l0 * (c.position[0] * c.velocity[1] - c.position[1] * c.velocity[0]);
-        reach = std::max(reach, c.position.norm());
-        volume += l0 * l0 * l0 * c.gradient.determinant();
-      }
-      (step == 0 ? before : after) = angular;
-      std::printf("t = %6.4f s: radius %.2f mm, volume %.4f ml, angular momentum %.4e kg m2/s\n", step * dt,
-                  1e3 * reach, 1e6 * volume, angular);
+      after = hmps::angular_momentum(x, v, rho, volume)[2];
+      if (step == 0) before = after;
+      double reach = 0;
+      for (const Cell& cell : cells) reach = std::fmax(reach, cell.position.norm());
+      std::printf("t = %6.4f s: reaches %.2f mm, mean det F %.4f, angular momentum %.4e kg m2/s\n", step * dt,
+                  1e3 * reach, hmps::jacobian_statistics(F).mean, after);
     }
     hmps::kick(v, f, rho, dt);
     hmps::drift(x, v, dt);
