@@ -3,12 +3,20 @@
 
 #include <cmath>
 #include <concepts>
+#include <type_traits>
 
 #include "hmps/core/error.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps {
+
+namespace detail {
+/// An Eigen matrix or expression of `D` by `D` numbers `T`: Eigen itself converts first and complains later.
+template <class M, class T, int D>
+concept TensorLike = std::same_as<typename std::remove_cvref_t<M>::Scalar, T> &&
+                     std::remove_cvref_t<M>::RowsAtCompileTime == D&& std::remove_cvref_t<M>::ColsAtCompileTime == D;
+}  // namespace detail
 
 /// A hyperelastic law, \paper{14}: S = 2 dW/dC. Valid expression:
 ///
@@ -22,14 +30,14 @@ namespace hmps {
 /// template over `T` with only + - * / on values of `T` also runs on packs of lanes.
 template <class Law, class T = double, int D = 3>
 concept HyperelasticLaw = requires(const Law& law, const Matrix<T, D>& C, const T& J) {
-  { law.second_piola_kirchhoff(C, J) } -> std::convertible_to<Matrix<T, D>>;
+  { law.second_piola_kirchhoff(C, J) } -> detail::TensorLike<T, D>;
 };
 
 /// A law of the deformation gradient itself. Valid expression: `law.first_piola_kirchhoff(F)`, the
 /// first Piola-Kirchhoff stress dW/dF in Pa. Satisfied by `LinearElastic` and `Continued`.
 template <class Law, class T = double, int D = 3>
 concept DeformationGradientLaw = requires(const Law& law, const Matrix<T, D>& F) {
-  { law.first_piola_kirchhoff(F) } -> std::convertible_to<Matrix<T, D>>;
+  { law.first_piola_kirchhoff(F) } -> detail::TensorLike<T, D>;
 };
 
 /// Either kind of law, for the scalar (or pack of lanes) `T` in `D` dimensions.

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/elastic/law.hpp"
+#include "hmps/stabilise/artificial.hpp"
+
+/// Energies of a body in J (in two dimensions per metre of thickness), summed in double precision
+/// in an order that does not depend on the executor. `volume` is that of a particle in the
+/// reference configuration, l0^D on a lattice. Without viscosity, contact and forced displacements
+/// kinetic + strain + artificial energy is what the scheme keeps.
+namespace hmps {
+
+/// One particle, as a callable material sees it in diagnostics: so that the same
+/// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` serves force and energy.
+struct OneParticle {
+  std::size_t index;
+
+  /// A parameter of the particle.
+  template <class P>
+  [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
+    return static_cast<double>(parameter[index]);
+  }
+  /// A parameter of the particle's body: `table[body[i]]`.
+  template <class P, class B>
+  [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
+    return static_cast<double>(table[static_cast<std::size_t>(body[index])]);
+  }
+};
+
+namespace detail {
+
+template <class Material>
+[[nodiscard]] auto material_at(const Material& material, std::size_t i) {
+  if constexpr (std::invocable<const Material&, OneParticle>) {
+    return material(OneParticle{i});
+  } else if constexpr (PerParticle<Material>) {
+    return at_particle(material, i);
+  } else {
+    return material;
+  }
+}
+
+}  // namespace detail
+
+/// Kinetic energy, sum of m |v|^2 / 2 with m = density * volume.
+///
+/// @param v        velocities in m/s
+/// @param density  in kg/m3, a number or a `ScalarView`
+/// @param volume   in m^D, a number or a `ScalarView`
+template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
+[[nodiscard]] double kinetic_energy(const VectorView<T, D>& v, const Rho& density, const Vol& volume,
+                                    const E& execute = {}) {
+  require_positive(density, v.size(), "density", "kg/m3");
+  require_positive(volume, v.size(), "volume", "m3");
+  return reduce(
+      v.size(), 0.0,
+      [&](std::size_t i) {
+        const double mass = static_cast<double>(at_particle(density, i)) * static_cast<double>(at_particle(volume, i));
+        return 0.5 * mass * v[i].template cast<double>().squaredNorm();
+      },
+      std::plus<>{}, execute);
+}
+
+/// Elastic strain energy, sum of V W(F) (\paper{6}, and \paper{15} for the Mooney-Rivlin law).
+///
+/// @param F         deformation gradients, \paper{11}
+/// @param material  a law with an energy, or a callable of `OneParticle` that gives the law of each
+/// @param volume    in m^D, a number or a `ScalarView`
+template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
+[[nodiscard]] double strain_energy(const MatrixView<T, D>& F, const Material& material, const Vol& volume,
+                                   const E& execute = {}) {
+  require_positive(volume, F.size(), "volume", "m3");
+  return reduce(
+      F.size(), 0.0,
+      [&](std::size_t i) {
+        const Matrix<double, D> gradient = F[i].template cast<double>();
+        return static_cast<double>(at_particle(volume, i)) * energy_density(detail::material_at(material, i), gradient);
+      },
+      std::plus<>{}, execute);
+}
+
+/// Energy of Kondo's stabiliser, whose gradient is \paper{19}: sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
+/// with C_i by \paper{20}. Its size beside the strain energy tells how much of the
+/// motion the deformation gradients do not see.
+///
+/// @param bonds    `BondList` or `LatticeBonds` of the body
+/// @param x        positions in m
+/// @param F        deformation gradients of the same positions
+/// @param modulus  E_hat in Pa: a number, a `ScalarView`, or a callable of `OneParticle`
+/// @param volume   in m^D, a number or a `ScalarView`
+template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Executor E = Serial>
+[[nodiscard]] double artificial_energy(const B& bonds, const VectorView<X, D>& x, const MatrixView<T, D>& F,
+                                       const Modulus& modulus, const Vol& volume, const E& execute = {}) {
+  require_size(x, bonds.size(), "positions");
+  require_size(F, bonds.size(), "deformation gradients");
+  require_positive(volume, bonds.size(), "volume", "m3");
+  return reduce(
+      bonds.size(), 0.0,
+      [&](std::size_t i) {
+        const Matrix<double, D> gradient = F[i].template cast<double>();
+        const Vector<double, D> own = x[i].template cast<double>();
+        double error = 0;
+        bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {
+          const Vector<double, D> r = x[j].template cast<double>() - own;
+          error += static_cast<double>(w) * (r - gradient * r0.template cast<double>()).squaredNorm();
+        });
+        const double stiffness = artificial_coefficient(static_cast<double>(detail::material_at(modulus, i)), D,
+                                                        1.0 / static_cast<double>(bonds.shape_trace(i)));
+        return static_cast<double>(at_particle(volume, i)) * stiffness * 0.5 * error;
+      },
+      std::plus<>{}, execute);
+}
+
+}  // namespace hmps

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+/// What counts as volume kept: the interval that the paper reports in section 4.1.
+struct JacobianInterval {
+  double low = 0.98;
+  double high = 1.02;
+};
+
+/// Statistics of det F, the change of volume of the particles.
+struct JacobianStatistics {
+  std::size_t count = 0;  ///< particles that were counted
+  double mean = 0;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  double share_within = 0;   ///< share of the particles inside the interval, bounds included
+  std::size_t smallest = 0;  ///< the particle with the smallest det F; of equals the first
+  std::size_t largest = 0;   ///< the particle with the largest det F; of equals the first
+};
+
+/// Counts every particle.
+struct EveryParticle {
+  constexpr bool operator()(std::size_t) const { return true; }
+};
+
+/// Statistics of det F over the particles for which `counts(i)` holds, such as those outside the
+/// control regions, as section 4.1 of the paper counts them. Throws `InputError` if there is none. A NaN in F gives a
+/// NaN mean; `check_state` finds the particle.
+///
+/// @param F  deformation gradients, \paper{11}
+template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
+[[nodiscard]] JacobianStatistics jacobian_statistics(const MatrixView<T, D>& F, const JacobianInterval& interval = {},
+                                                     Counts&& counts = {}, const E& execute = {}) {
+  struct Sum : JacobianStatistics {
+    std::size_t within = 0;
+  };
+  const auto one = [&](std::size_t i) {
+    Sum s;
+    if (!counts(i)) return s;
+    const Matrix<double, D> gradient = F[i].template cast<double>();
+    const double J = determinant(gradient);
+    s.count = 1;
+    s.mean = s.min = s.max = J;
+    s.within = J >= interval.low && J <= interval.high ? 1 : 0;
+    s.smallest = s.largest = i;
+    return s;
+  };
+  // Particles come in order, so that of equal values the one already in `a` is the first.
+  const auto merge = [](Sum a, const Sum& b) {
+    if (b.min < a.min) {
+      a.min = b.min;
+      a.smallest = b.smallest;
+    }
+    if (b.max > a.max) {
+      a.max = b.max;
+      a.largest = b.largest;
+    }
+    a.count += b.count;
+    a.mean += b.mean;
+    a.within += b.within;
+    return a;
+  };
+  Sum all = reduce(F.size(), Sum{}, one, merge, execute);
+  require(all.count > 0, "hmps: the statistics of det F were asked for no particle; `counts` must hold for some");
+  all.mean /= static_cast<double>(all.count);
+  all.share_within = static_cast<double>(all.within) / static_cast<double>(all.count);
+  return all;
+}
+
+}  // namespace hmps

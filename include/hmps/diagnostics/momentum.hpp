@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "hmps/core/executor.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+/// Momenta of a body, summed in double precision in an order that does not depend on the executor.
+/// Elastic and artificial forces keep both; the viscous force of \paper{21} keeps the linear one, but damps rigid
+/// spin at free surfaces.
+namespace hmps {
+
+/// What turns in `D` dimensions: a vector in three, its component out of the plane in two.
+template <int D>
+using Axial = Vector<double, D == 3 ? 3 : 1>;
+
+/// a x b: a vector in three dimensions, its component out of the plane in two.
+template <int D>
+[[nodiscard]] Axial<D> cross(const Vector<double, D>& a, const Vector<double, D>& b) {
+  if constexpr (D == 3) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  } else {
+    return Axial<D>::Constant(a[0] * b[1] - a[1] * b[0]);
+  }
+}
+
+/// Linear momentum in kg m/s, the sum of density * volume * v.
+///
+/// @param v        velocities in m/s
+/// @param density  in kg/m3, a number or a `ScalarView`
+/// @param volume   of a particle in m^D, a number or a `ScalarView`
+template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
+[[nodiscard]] Vector<double, D> linear_momentum(const VectorView<T, D>& v, const Rho& density, const Vol& volume,
+                                                const E& execute = {}) {
+  require_positive(density, v.size(), "density", "kg/m3");
+  require_positive(volume, v.size(), "volume", "m3");
+  using Sum = Vector<double, D>;
+  return reduce(
+      v.size(), Sum(Sum::Zero()),
+      [&](std::size_t i) -> Sum {
+        const double mass = static_cast<double>(at_particle(density, i)) * static_cast<double>(at_particle(volume, i));
+        return mass * v[i].template cast<double>();
+      },
+      [](const Sum& a, const Sum& b) -> Sum { return a + b; }, execute);
+}
+
+/// Angular momentum in kg m2/s about the point `about` (m): the sum of (x - about) x m v.
+template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
+[[nodiscard]] Axial<D> angular_momentum(const VectorView<X, D>& x, const VectorView<T, D>& v, const Rho& density,
+                                        const Vol& volume, const Vector<double, D>& about = Vector<double, D>::Zero(),
+                                        const E& execute = {}) {
+  require_size(v, x.size(), "velocities");
+  require_positive(density, v.size(), "density", "kg/m3");
+  require_positive(volume, v.size(), "volume", "m3");
+  using Sum = Axial<D>;
+  return reduce(
+      v.size(), Sum(Sum::Zero()),
+      [&](std::size_t i) -> Sum {
+        const double mass = static_cast<double>(at_particle(density, i)) * static_cast<double>(at_particle(volume, i));
+        const Vector<double, D> arm = x[i].template cast<double>() - about;
+        const Vector<double, D> momentum = mass * v[i].template cast<double>();
+        return cross<D>(arm, momentum);
+      },
+      [](const Sum& a, const Sum& b) -> Sum { return a + b; }, execute);
+}
+
+}  // namespace hmps
