@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/core/text_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using namespace hmps::detail;
+
+TEST(TextFile, ReadsAllBytesAndNamesWhatItCannotRead) {
+  const auto path = (std::filesystem::temp_directory_path() / "hmps_text_file_test.txt").string();
+  std::string bytes(3'000'000, 'x');
+  bytes[1'500'000] = '\0';
+  std::ofstream(path, std::ios::binary) << bytes;
+  EXPECT_EQ(read_text(path), bytes);
+  std::ofstream(path, std::ios::binary) << "";
+  EXPECT_EQ(read_text(path), "");
+  std::filesystem::remove(path);
+  EXPECT_THROW((void)read_text(path), hmps::InputError);
+  EXPECT_THROW((void)read_text(std::filesystem::temp_directory_path().string()), hmps::InputError);
+}
+
+TEST(TextFile, CutsLinesAndWords) {
+  std::string_view text = "one  two\r\n\n last";
+  std::string_view line = take_line(text);
+  EXPECT_EQ(take_word(line), "one");
+  EXPECT_EQ(take_word(line), "two");
+  EXPECT_EQ(take_word(line), "");
+  EXPECT_EQ(take_line(text), "");
+  EXPECT_EQ(trimmed(take_line(text)), "last");
+  EXPECT_TRUE(text.empty());
+}
+
+TEST(TextFile, NumbersMustBeWhole) {
+  double number{};
+  for (const char* good : {"1", "+1", "-2.5e-3", ".5", "1e300"}) EXPECT_TRUE(parse_number(good, number)) << good;
+  for (const char* bad : {"", "+", "+-1", "1 ", "1,5", "0x10", "1e", "a", "1e999"})
+    EXPECT_FALSE(parse_number(bad, number)) << bad;
+  EXPECT_TRUE(parse_number("+1.25", number));
+  EXPECT_EQ(number, 1.25);
+}
+
+}  // namespace

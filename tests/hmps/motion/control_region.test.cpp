@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/motion/control_region.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+using hmps::ControlRegion;
+using hmps::Index;
+using hmps::Vector;
+
+template <class S_, int D_>
+struct Case {
+  using S = S_;
+  static constexpr int D = D_;
+};
+
+template <class T>
+class ControlRegionTest : public testing::Test {
+ public:
+  using Scalar = typename T::S;
+  static constexpr int dimension = T::D;
+  using Positions = std::vector<Vector<Scalar, dimension>>;
+
+  static hmps::RigidMotion<dimension> motion() {
+    hmps::RigidMotion<dimension> result{.pivot = Vector<double, dimension>::Constant(0.01),
+                                        .translation = {{0.0, Vector<double, dimension>::Zero()},
+                                                        {0.5, 0.02 * Vector<double, dimension>::Unit(1)},
+                                                        {1.0, -0.01 * Vector<double, dimension>::Unit(0)}},
+                                        .turn = turn()};
+    return result;
+  }
+  static auto turn() {
+    if constexpr (dimension == 2)
+      return hmps::Keyframes<1>{{0.0, 0.0}, {1.0, 1.5}};
+    else
+      return hmps::Keyframes<3>{{0.0, {0, 0, 0}}, {1.0, {0.5, 1.0, -0.3}}};
+  }
+  Positions at_rest = [] {
+    Positions points;
+    for (int k = 0; k < 8; ++k) points.push_back(Vector<Scalar, dimension>::Constant(static_cast<Scalar>(1.2e-3 * k)));
+    return points;
+  }();
+  Positions positions = at_rest;
+  Positions velocities{8, Vector<Scalar, dimension>::Zero()};
+};
+using Cases = testing::Types<Case<float, 2>, Case<double, 2>, Case<float, 3>, Case<double, 3>>;
+TYPED_TEST_SUITE(ControlRegionTest, Cases);
+
+TYPED_TEST(ControlRegionTest, DriftLandsOnTheMotionAfterThousandsOfSteps) {
+  using S = typename TestFixture::Scalar;
+  constexpr int D = TestFixture::dimension;
+  const auto motion = this->motion();
+  const ControlRegion region({1, 5, 6}, hmps::vectors(this->at_rest), motion);
+  const auto x = hmps::vectors(this->positions);
+  const auto v = hmps::vectors(this->velocities);
+  const double dt = 1.0 / 4096;
+  const S h = static_cast<S>(dt);
+  double fastest = 0;
+  for (int step = 0; step < 4096; ++step) {
+    region.prescribe((step + 1) * dt, dt, x, v);
+    for (std::size_t i = 0; i < 8; ++i) {
+      fastest = std::max(fastest, static_cast<double>(v[i].norm()));
+      x.add(i, Vector<S, D>(v[i] * h));
+    }
+  }
+  // Rounding of one step only: of a position of at most 0.05 m.
+  const double bound = 4 * 0.05 * static_cast<double>(std::numeric_limits<S>::epsilon());
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_LE((x[region.particles()[k]].template cast<double>() - region.position(k, 1.0)).norm(), bound);
+  EXPECT_GT((region.position(0, 1.0) - this->at_rest[1].template cast<double>()).norm(), 0.005);
+  // The first and the last step are slow, nothing is kicked: below the speeds in between.
+  EXPECT_LT(fastest, 1);
+  for (const std::size_t i : {0, 2, 3, 4, 7}) EXPECT_EQ(this->positions[i], this->at_rest[i]);
+}
+
+TYPED_TEST(ControlRegionTest, StartsWithoutAJumpOfVelocity) {
+  const ControlRegion region({1, 5}, hmps::vectors(this->at_rest), this->motion());
+  const double dt = 1e-5;
+  region.prescribe(dt, dt, hmps::vectors(this->positions), hmps::vectors(this->velocities));
+  // Positions rise as the square of time: velocity below the largest acceleration, some 1 m/s2, times dt,
+  // beside the rounding of positions over dt.
+  const double rounding = 0.05 * std::numeric_limits<typename TestFixture::Scalar>::epsilon() / dt;
+  EXPECT_LE(static_cast<double>(this->velocities[1].norm()), 1e-5 + rounding);
+}
+
+TYPED_TEST(ControlRegionTest, PlacesARunThatStartsWithinTheMotion) {
+  using S = typename TestFixture::Scalar;
+  constexpr int D = TestFixture::dimension;
+  const auto motion = this->motion();
+  const ControlRegion<S, D> region({2, 3}, hmps::vectors(this->at_rest), motion);
+  const auto x = hmps::vectors(this->positions);
+  const auto v = hmps::vectors(this->velocities);
+  const double dt = 1e-3;
+  EXPECT_THROW(region.prescribe(0.4 + dt, dt, x, v, hmps::Serial{}, 1.0), hmps::StateError);
+  region.place(0.4, x, v);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Index i = region.particles()[k];
+    const Vector<double, D> at = this->at_rest[i].template cast<double>();
+    EXPECT_LE((x[i].template cast<double>() - motion(0.4)(at)).norm(),
+              0.05 * static_cast<double>(std::numeric_limits<S>::epsilon()));
+    const Vector<double, D> speed = velocity(motion(0.4), motion.rate(0.4), at);
+    EXPECT_LE((v[i].template cast<double>() - speed).norm(), 1e-7);
+  }
+  EXPECT_NO_THROW(region.prescribe(0.4 + dt, dt, x, v, hmps::Serial{}, 1.0));
+  EXPECT_EQ(this->positions[0], this->at_rest[0]);
+}
+
+TYPED_TEST(ControlRegionTest, TakesMotionsThatAreNotRigid) {
+  using S = typename TestFixture::Scalar;
+  constexpr int D = TestFixture::dimension;
+  const auto stretch = [](double t) {
+    return [t](const Vector<double, D>& X) { return Vector<double, D>((1 + t) * X); };
+  };
+  const ControlRegion region({4}, hmps::vectors(this->at_rest), stretch);
+  region.prescribe(0.5, 0.25, hmps::vectors(this->positions), hmps::vectors(this->velocities));
+  EXPECT_LE((this->velocities[4] - S(2) * this->at_rest[4]).norm(), S(1e-7));
+}
+
+TYPED_TEST(ControlRegionTest, NamesWhatIsWrong) {
+  using S = typename TestFixture::Scalar;
+  constexpr int D = TestFixture::dimension;
+  const auto reference = hmps::vectors(this->at_rest);
+  const auto motion = this->motion();
+  EXPECT_THROW((ControlRegion<S, D>({8}, reference, motion)), hmps::InputError);
+  EXPECT_THROW((ControlRegion<S, D>({3, 1, 3}, reference, motion)), hmps::InputError);
+  const ControlRegion<S, D> region({3}, reference, motion);
+  const auto x = hmps::vectors(this->positions);
+  const auto v = hmps::vectors(this->velocities);
+  EXPECT_THROW(region.prescribe(0.1, 0.0, x, v), hmps::InputError);
+  EXPECT_THROW(region.prescribe(0.1, 0.1, x.part(0, 7), v), hmps::InputError);
+  EXPECT_THROW(region.prescribe(0.1, 0.1, x, v.part(0, 7)), hmps::InputError);
+  this->positions[3][0] = std::numeric_limits<S>::quiet_NaN();
+  try {
+    region.prescribe(0.1, 0.1, x, v);
+    ADD_FAILURE() << "a position that is not a number was accepted";
+  } catch (const hmps::StateError& error) {
+    EXPECT_NE(std::string(error.what()).find("particle 3"), std::string::npos) << error.what();
+  }
+  this->at_rest[3][0] = std::numeric_limits<S>::infinity();
+  EXPECT_THROW((ControlRegion<S, D>({3}, reference, motion)), hmps::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/motion/csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+template <class Call>
+std::string failure(Call&& call) {
+  try {
+    call();
+  } catch (const hmps::InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text << "\n  lacks: " << part;
+}
+
+TEST(Csv, ReadsNamedColumnsOfNumbers) {
+  const auto table =
+      hmps::parse_csv("\xEF\xBB\xBF# a trace\n\nt, x ,y z\r\n0,1,-2.5e-3\r\n 0.5 ,\t+2, 3 # remark\n1,4,5");
+  EXPECT_EQ(table.names, (std::vector<std::string>{"t", "x", "y z"}));
+  ASSERT_EQ(table.rows(), 3u);
+  EXPECT_EQ(table.columns(), 3u);
+  EXPECT_EQ(table(0, 2), -2.5e-3);
+  EXPECT_EQ(table(1, table.column("x")), 2);
+  EXPECT_EQ(table(2, 2), 5);
+  EXPECT_EQ(table.lines, (std::vector<std::size_t>{4, 5, 6}));
+  EXPECT_TRUE(table.has("x"));
+  EXPECT_FALSE(table.has("z"));
+  EXPECT_EQ(hmps::parse_csv("a,b\n").rows(), 0u);
+}
+
+TEST(Csv, NamesSourceLineAndColumnOfWhatIsWrong) {
+  const auto message = [](const char* text) { return failure([&] { (void)hmps::parse_csv(text, "trace.csv"); }); };
+  expect_contains(message("t,x\n0,1\n\n1,b\n"), "trace.csv, line 4: 'b' in column 'x' is not a finite number");
+  expect_contains(message("t,x\n0,nan\n"), "line 2: 'nan'");
+  expect_contains(message("t,x\n0,\n"), "line 2: '' in column 'x'");
+  expect_contains(message("t,x\n0,1,2\n"), "line 2: the row has 3 cells but the header names 2 columns");
+  expect_contains(message("t,x\n0\n"), "line 2: the row has 1 cells");
+  expect_contains(message("t;x\n0;1\n"), "line 2: '0;1' in column 't;x'");
+  expect_contains(message("# only\nt,x,t\n"), "line 2: the column 't' is named twice");
+  expect_contains(message("t,,x\n"), "line 1: column 2 has no name");
+  expect_contains(message(""), "trace.csv is empty");
+  expect_contains(message("# nothing\n"), "trace.csv is empty");
+  expect_contains(failure([] { (void)hmps::parse_csv("t,x\n", "trace.csv").column("y"); }),
+                  "trace.csv has no column 'y'; it has t, x");
+  expect_contains(failure([] { (void)hmps::read_csv("no/such/trace.csv"); }), "cannot open no/such/trace.csv");
+}
+
+TEST(Csv, ReadsFiles) {
+  const auto path = (std::filesystem::temp_directory_path() / "hmps_csv_test.csv").string();
+  std::ofstream(path) << "t,x\n0,1\n2,3\n";
+  const auto table = hmps::read_csv(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(table.source, path);
+  EXPECT_EQ(table.rows(), 2u);
+}
+
+TEST(Csv, MakesKeyframesInMetres) {
+  const auto table = hmps::parse_csv("t,ant,sup,turn\n0,0,0,0\n1,2,4,90\n", "hyoid.csv");
+  const auto path = hmps::keyframes<2>(table, {"sup", "ant"}, 1e-3);
+  EXPECT_DOUBLE_EQ(path.value(1)[0], 4e-3);
+  EXPECT_DOUBLE_EQ(path.value(0.5)[1], 1e-3);
+  EXPECT_DOUBLE_EQ(hmps::track(table, "turn", 2).value(1), 180);
+  EXPECT_DOUBLE_EQ(hmps::track(table, "turn", 1, "ant").value(2), 90);
+  expect_contains(failure([&] { (void)hmps::track(table, "left"); }), "no column 'left'");
+  const auto disorder = hmps::parse_csv("t,x\n0,0\n# pause\n0,1\n", "hyoid.csv");
+  expect_contains(failure([&] { (void)hmps::track(disorder, "x"); }),
+                  "hyoid.csv, line 4: the time 0 s does not follow 0 s");
+  expect_contains(failure([&] { (void)hmps::track(hmps::parse_csv("t,x\n", "hyoid.csv"), "x"); }), "no row");
+}
+
+}  // namespace
