@@ -120,7 +120,7 @@ class Simulation {
     const Simulation* simulation;
     template <class At>
     [[nodiscard]] auto operator()(const At& at) const {
-      const auto young = at(hmps::scalars(simulation->modulus_));
+      const auto young = at(simulation->body(hmps::scalars(simulation->modulus_)));
       using T = std::remove_const_t<decltype(young)>;
       return hmps::MooneyRivlin<T>::from_young(young, T(simulation->materials_.d1));
     }
@@ -130,7 +130,7 @@ class Simulation {
     const Simulation* simulation;
     template <class At>
     [[nodiscard]] auto operator()(const At& at) const {
-      return at(hmps::scalars(simulation->modulus_)) * S(simulation->materials_.stabiliser_ratio);
+      return at(simulation->body(hmps::scalars(simulation->modulus_))) * S(simulation->materials_.stabiliser_ratio);
     }
   };
 
