@@ -9,7 +9,8 @@
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
-/// Symplectic Euler with contact between the half steps, \paper{2, 3, 4}, as verbs to compose:
+/// The equation of motion, \paper{1}, in time: symplectic Euler with contact between the half steps,
+/// \paper{2, 3, 4}, as verbs to compose:
 ///
 ///     force(x, v, f);          kick(v, f, rho, dt);          // v* of Eq. (2)
 ///     contact(x, v, F, f);     kick(v, f, rho, dt);          // Eq. (3)
