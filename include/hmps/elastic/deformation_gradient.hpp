@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "hmps/core/executor.hpp"
@@ -40,14 +41,29 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
 }
 
-/// Displacements from the reference configuration, taken in double precision before they are
-/// rounded to that of the kernels: what a bond needs of a position is lost in the position's
-/// leading digits.
+/// The displacement (m) of a particle in the middle of the order of the sweeps, zero where it is not
+/// finite.
+template <class K, int D, class T>
+[[nodiscard]] Vector<double, D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
+  Vector<double, D> common = Vector<double, D>::Zero();
+  if (blocks.size() == 0) return common;
+  const Index i = blocks.particle(blocks.size() / 2);
+  for (int c = 0; c < D; ++c) {
+    const double u = static_cast<double>(x(i, c)) - blocks.reference(i, c);
+    if (std::isfinite(u)) common[c] = u;
+  }
+  return common;
+}
+
+/// Displacements from the reference configuration less those that all particles have in `common`,
+/// taken in double precision before they are rounded to that of the kernels: what a bond needs of a
+/// position is lost in the position's leading digits, and how far the body has travelled is nothing
+/// to a bond.
 template <class K, int D, class T>
 HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& x,
-                                    SlotArrays<K>& slots) {
+                                    const Vector<double, D>& common, SlotArrays<K>& slots) {
   stage(blocks, block, x, slots, [&](T number, std::size_t slot, int c) {
-    return static_cast<K>(static_cast<double>(number) - blocks.reference_slots(c)[slot]);
+    return static_cast<K>((static_cast<double>(number) - blocks.reference_slots(c)[slot]) - common[c]);
   });
 }
 
@@ -126,7 +142,9 @@ void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const Matri
   require_size(F, bonds.size(), "deformation gradients");
   using K = typename B::Scalar;
   SlotArrays<K> displacement(D, bonds.slot_count());
-  execute(bonds.block_count(), [&](std::size_t block) { detail::stage_displacement(bonds, block, x, displacement); });
+  const Vector<double, D> common = detail::common_displacement(bonds, x);
+  execute(bonds.block_count(),
+          [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
   execute(bonds.block_count(), [&](std::size_t block) {
     const auto inverse = bonds.shape_inverse_lanes(block);
     const auto gradient = detail::deformation_gradient_lanes(bonds, block, displacement, inverse);

@@ -38,7 +38,7 @@ class InternalForce {
   explicit InternalForce(const B& bonds, Terms... terms)
       : bonds_(&bonds),
         terms_(std::move(terms)...),
-        displacement_(D, bonds.slot_count()),
+        displacement_(couples ? D : 0, bonds.slot_count()),
         velocity_(damps ? D : 0, bonds.slot_count()),
         coupling_(couples ? D * D + 1 : 0, bonds.slot_count()) {
     if constexpr (damps) {
@@ -56,8 +56,9 @@ class InternalForce {
     require_size(x, bonds_->size(), "positions");
     require_size(v, bonds_->size(), "velocities");
     require_size(f, bonds_->size(), "forces");
+    const Vector<double, D> common = detail::common_displacement(*bonds_, x);
     execute(bonds_->block_count(), [&](std::size_t block) {
-      detail::stage_displacement(*bonds_, block, x, displacement_);
+      if constexpr (couples) detail::stage_displacement(*bonds_, block, x, common, displacement_);
       if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
     });
     if constexpr (couples) execute(bonds_->block_count(), [&](std::size_t block) { couple(block); });

@@ -36,15 +36,24 @@ class BlockOfParticles {
   [[nodiscard]] HMPS_INLINE const Blocks<K, D>& blocks() const { return blocks_; }
   [[nodiscard]] HMPS_INLINE std::size_t block() const { return block_; }
 
-  /// A parameter of each particle, from the user's array of one number per particle.
+  /// A parameter of each particle, from the user's array of one number per particle. Throws
+  /// `InputError` if it has another size.
   template <class P>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& parameter) const {
+    require_size(parameter, blocks_.size(), "parameters");
     return gather([&](Index i) { return parameter[i]; });
   }
-  /// A parameter of each particle's body: `table[body[i]]`.
+  /// A parameter of each particle's body: `table[body[i]]`. Throws `InputError` if the bodies have
+  /// another size or one is not in the table.
   template <class P, class B>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
-    return gather([&](Index i) { return table[static_cast<std::size_t>(body[i])]; });
+    require_size(body, blocks_.size(), "bodies");
+    return gather([&](Index i) {
+      const auto b = static_cast<std::size_t>(body[i]);
+      require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i], " but the table of parameters has ",
+              table.size(), " bodies; number them from 0");
+      return table[b];
+    });
   }
 
  private:
