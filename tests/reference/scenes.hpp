@@ -112,7 +112,7 @@ std::vector<Scene<D>> all() {
     scene.reference = std::move(reference);
     return scene;
   };
-  add("box", box<D>(extent<D>(7, 6, 19)));
+  add("box", D == 3 ? box<D>(extent<D>(7, 6, 19)) : box<D>(extent<D>(19, 11, 1)));
   add("box whose rows are long in the first direction", box<D>(extent<D>(37, 5, 4)));
   Random random(3);
   add("box with holes", lattice<D>(extent<D>(18, 9, 6), [&](const auto&) { return random() > 0.08; }));

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "../../reference/plain.hpp"
+#include "../../reference/scenes.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/elastic/mooney_rivlin.hpp"
+#include "hmps/neighbours/bond_list.hpp"
+#include "hmps/neighbours/lattice_bonds.hpp"
+
+/// What the tests of the force terms share: materials that differ from particle to particle, and
+/// the plain equations with them.
+namespace equations {
+
+inline constexpr double density = 1000, viscosity = 2e-3;
+
+/// Constants per particle, in Pa.
+struct Materials {
+  std::vector<double> c1, c2, d1, modulus;
+
+  Materials(std::size_t size, bool uniform = false) {
+    scenes::Random random(11);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto pick = [&](double value) { return uniform ? value : value * random(0.5, 1.5); };
+      c1.push_back(pick(1700));
+      c2.push_back(pick(1500));
+      d1.push_back(pick(1e4));
+      modulus.push_back(pick(2e4));
+    }
+  }
+};
+
+/// The plain equations for one scene.
+template <int D>
+struct Expected {
+  using Vec = Eigen::Matrix<double, D, 1>;
+  using Mat = Eigen::Matrix<double, D, D>;
+  plain::Body<double, D> body;
+  std::vector<Vec> x, v, elastic, artificial, viscous;
+  std::vector<Mat> F;
+
+  static std::vector<Vec> convert(const scenes::Points<D>& points) { return {points.begin(), points.end()}; }
+
+  Expected(const scenes::Scene<D>& scene, const Materials& m, double lambda, double n0)
+      : body(convert(scene.reference), 1.75 * scene.spacing, scene.bonded),
+        x(convert(scene.x)),
+        v(convert(scene.v)),
+        elastic(x.size(), Vec::Zero()),
+        artificial(elastic),
+        viscous(elastic),
+        F(x.size()) {
+    body.deformation_gradient(x, F);
+    body.elastic(
+        F,
+        [&](std::size_t i, const Mat& Fi) {
+          return plain::MooneyRivlin<double>{m.c1[i], m.c2[i], m.d1[i]}.template second_piola_kirchhoff<D>(Fi);
+        },
+        elastic);
+    body.artificial(
+        x, F, [&](std::size_t i) { return m.modulus[i]; }, artificial);
+    body.viscous(v, density, viscosity, lambda, n0, viscous);
+  }
+};
+
+/// Rounding of kernels in `K`: F is made of differences of displacements, so that its error is a few
+/// eps of the largest displacement over the spacing; stresses multiply it by the stiffness 2 D1 + E,
+/// and a force is a stress over the spacing. The sum over the bonds adds a factor of order ten.
+template <class K, int D>
+struct Tolerance {
+  double gradient, elastic, artificial, viscous;
+
+  explicit Tolerance(const scenes::Scene<D>& scene) {
+    double displacement = 0, speed = 0;
+    for (std::size_t i = 0; i < scene.x.size(); ++i) {
+      const auto u = [&](std::size_t k) { return scene.x[k] - scene.reference[k]; };
+      displacement = std::max(displacement, (u(i) - u(0)).norm());
+      speed = std::max(speed, scene.v[i].norm());
+    }
+    // The state itself is in double: its rounding, of about 0.1 m, is there whatever K.
+    const double eps = std::numeric_limits<K>::epsilon() * (1 + displacement / scene.spacing) +
+                       std::numeric_limits<double>::epsilon() * 0.1 / scene.spacing;
+    gradient = 4 * eps;
+    elastic = 10 * gradient * (2 * 1.5e4 + 6 * 1.5 * 3200) / scene.spacing;
+    artificial = 10 * gradient * 3e4 / scene.spacing;
+    viscous = 100 * std::numeric_limits<K>::epsilon() * density * viscosity * speed / std::pow(scene.spacing, 2);
+  }
+};
+
+/// Which bonds fit a scene.
+template <class B>
+inline constexpr bool is_lattice = std::is_same_v<B, hmps::LatticeBonds<typename B::Scalar, B::dimension>>;
+
+template <class B>
+B make_bonds(const scenes::Scene<B::dimension>& scene) {
+  return B(hmps::vectors(scene.reference), {.spacing = scene.spacing}, scene.bonded);
+}
+
+template <int D>
+using Vectors = std::vector<hmps::Vector<double, D>>;
+
+template <int D, class Value>
+double largest_difference(const Vectors<D>& a, Value&& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = (a[i] - b(i)).norm();
+    largest = std::isfinite(difference) ? std::max(largest, difference) : std::numeric_limits<double>::infinity();
+  }
+  return largest;
+}
+
+}  // namespace equations
