@@ -43,7 +43,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   number(app.add_option("--spacing", options.spacing,
                         "diameter l0 of the particles in m (default: 2.4e-3; paper: 1.2e-3)"),
          "M")
-      ->check(within(0.4e-3, 5e-3, "the spacing is in metres and must lie between 0.4e-3 and 5e-3"));
+      ->check(within(0.5e-3, 2.4e-3, "the spacing is in metres and must lie between 0.5e-3 and 2.4e-3"));
   number(app.add_option("--time-step", options.time_step,
                         "time step in s, 0: from the estimate of the largest stable step (default: 0; paper: 1e-5)"),
          "S")
