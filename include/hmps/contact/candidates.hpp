@@ -11,8 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/contact/metaball.hpp"
+#include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/neighbours/grid.hpp"
@@ -38,14 +41,15 @@ template <class S, int D>
 /// Which slaves may meet which masters. Two lists, each a superset of what touches:
 /// - the outer one holds pairs within reach plus `skin`; built by a grid search when an organ pair has
 ///   moved or a reach has grown by that much;
-/// - the inner one holds those of them within reach plus `margin`, by true distances; chosen anew
-///   after as many calls as the present speeds allow twice over (at most `longest_nap`), or at once
-///   when a particle on it has used up its share of the margin.
-/// What lies beyond the inner list sleeps. All orders follow the particles' indices, so sums over the
+/// - the inner one holds those of them within reach plus `margin`, by true distances, and of those
+///   only the slaves that could touch if all masters were nearer by `margin`; chosen anew after as
+///   many calls as the present speeds allow twice over (at most `longest_nap`), or at once when a
+///   master on it has used up its share of the margin.
+/// What is not on the inner list sleeps. All orders follow the particles' indices, so sums over the
 /// pairs that touch do not depend on when lists were made.
 ///
 /// A row is a slave of one side (an ordered pair of organs); a slot is a master of some row.
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 class Candidates {
  public:
   using Point = Vector<S, D>;
@@ -70,7 +74,8 @@ class Candidates {
   struct Row {
     Index particle, touched;
     std::uint32_t side;
-    Index begin;  // of its candidates; the next row's is the end
+    Index begin;    // of its candidates; the next row's is the end
+    S compression;  // bound of |F_j^-1| of its masters until the next check
   };
   struct Touched {
     Index particle;
@@ -81,6 +86,7 @@ class Candidates {
     Index row, candidate;
   };
 
+  NormalDensity<S, D, Ball> normal_density;
   std::vector<OrganRange> organs;
   std::vector<Pair> pairs;
   std::vector<Side> sides;
@@ -95,6 +101,10 @@ class Candidates {
   std::vector<Index> touched_rows, touched_slots;
   std::size_t rebuilds = 0, checks = 0, late = 0;
 
+  /// `spacing` and `skin` in m.
+  Candidates(S spacing, S skin)
+      : normal_density(spacing), radius_(static_cast<S>(Ball::radius) * spacing), skin_(skin) {}
+
   std::size_t add_organ(const Organ& organ);
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
   void refresh() { built_ = false; }
@@ -104,18 +114,18 @@ class Candidates {
 
   /// Keeps the lists valid for this call; true if the inner one was chosen anew.
   template <class X, class V, class Gradients, class E>
-  bool update(const X& x, const V& v, const Gradients& F, S dt, S radius, S skin, const E& execute) {
+  bool update(const X& x, const V& v, const Gradients& F, S dt, const E& execute) {
     if (built_ && naps_ > 0 && !probe(x)) {
       --naps_;
       return false;
     }
-    check(x, v, F, dt, radius, skin, execute);
+    check(x, v, F, dt, execute);
     return true;
   }
 
   /// Chooses the inner list anew, and the outer one where needed.
   template <class X, class V, class Gradients, class E>
-  void check(const X& x, const V& v, const Gradients& F, S dt, S radius, S skin, const E& execute);
+  void check(const X& x, const V& v, const Gradients& F, S dt, const E& execute);
 
   /// Whether the particle of `slot`, now at `place`, has used up its half of the margin.
   [[nodiscard]] bool strayed(std::size_t slot, const Point& place) const {
@@ -135,6 +145,7 @@ class Candidates {
     std::uint32_t side;
     Index begin, member;
     Index kept;  // end of its candidates on the inner list
+    S compression;
   };
   struct Near {
     Index slave, master;
@@ -145,22 +156,26 @@ class Candidates {
   [[nodiscard]] bool probe(const X& x) const;
   void number();
   template <class X, class V, class Gradients, class E>
-  void measure(const X& x, const V& v, const Gradients& F, S radius, const E& execute);
+  void measure(const X& x, const V& v, const Gradients& F, const E& execute);
   template <class X>
   [[noreturn]] void fail(const X& x, const OrganRange& organ) const;
   template <class E>
-  void build(S radius, S skin, const E& execute);
+  void build(const E& execute);
   template <class E>
-  void build_side(std::uint32_t side, S radius, S skin, const E& execute);
+  void build_side(std::uint32_t side, const E& execute);
   template <class E>
-  void select(S margin, const E& execute);
+  void select(const E& execute);
+  [[nodiscard]] S keep(std::size_t row, Index& end);
+  [[nodiscard]] S margin() const { return S(0.4) * skin_; }
   void transpose();
 
+  S radius_, skin_;
   // Of members (a particle in an organ), organ after organ, sorted by particle.
   std::vector<Index> particle_, unique_;
   std::vector<std::uint8_t> flags_;
   std::vector<Point> place_, built_place_;  // at the latest check and build
-  std::vector<S> reach_, built_reach_;      // r_e times the stretch; negative: no wall
+  std::vector<S> reach_, built_reach_;      // r_e times the stretch
+  std::vector<S> compression_;              // bound of |F^-1| of masters; negative: no wall
   std::vector<Partial> partials_;
   // Of particles.
   std::vector<Index> unique_particle_, touched_of_;

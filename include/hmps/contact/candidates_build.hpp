@@ -5,8 +5,8 @@
 
 namespace hmps::detail {
 
-template <class S, int D>
-std::size_t Candidates<S, D>::add_organ(const Organ& organ) {
+template <class S, int D, Metaball Ball>
+std::size_t Candidates<S, D, Ball>::add_organ(const Organ& organ) {
   require(!organ.slaves.empty() || !organ.masters.empty(), "hmps: organ '", organ.name,
           "' has neither slaves nor masters; give the indices of its surface particles");
   std::vector<std::pair<Index, std::uint8_t>> all;
@@ -29,8 +29,8 @@ std::size_t Candidates<S, D>::add_organ(const Organ& organ) {
   return organs.size() - 1;
 }
 
-template <class S, int D>
-std::size_t Candidates<S, D>::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
+template <class S, int D, Metaball Ball>
+std::size_t Candidates<S, D, Ball>::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
   for (const std::size_t o : {a, b})
     require(o < organs.size(), "hmps: organ ", o, " of a contact pair does not exist; only ", organs.size(),
             " organs were added, numbered from 0");
@@ -49,8 +49,8 @@ std::size_t Candidates<S, D>::add_pair(std::size_t a, std::size_t b, const PairS
   return pairs.size() - 1;
 }
 
-template <class S, int D>
-void Candidates<S, D>::add_side(std::size_t slaves, std::size_t masters) {
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
   const auto any = [&](std::size_t o, std::uint8_t role) {
     for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
       if (flags_[m] & role) return true;
@@ -64,8 +64,8 @@ void Candidates<S, D>::add_side(std::size_t slaves, std::size_t masters) {
 }
 
 /// Numbers the particles of all organs once each, and cuts the members into chunks.
-template <class S, int D>
-void Candidates<S, D>::number() {
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::number() {
   std::vector<Index> order(particle_.size());
   for (std::size_t m = 0; m < order.size(); ++m) order[m] = static_cast<Index>(m);
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return particle_[a] < particle_[b]; });
@@ -83,7 +83,8 @@ void Candidates<S, D>::number() {
   touched_of_.assign(unique_particle_.size(), none);
   slot_of_member_.assign(particle_.size(), none);
   place_.assign(particle_.size(), Point::Zero());
-  reach_.assign(particle_.size(), S(-1));
+  reach_.assign(particle_.size(), S(0));
+  compression_.assign(particle_.size(), S(-1));
   partials_.clear();
   for (std::size_t o = 0; o < organs.size(); ++o)
     for (std::size_t m = organs[o].begin; m < organs[o].end; m += chunk)
@@ -91,9 +92,9 @@ void Candidates<S, D>::number() {
 }
 
 /// Builds the outer lists from the places and reaches of the latest check.
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 template <class E>
-void Candidates<S, D>::build(S radius, S skin, const E& execute) {
+void Candidates<S, D, Ball>::build(const E& execute) {
   built_place_ = place_;
   built_reach_ = reach_;
   for (OrganRange& organ : organs) {
@@ -102,18 +103,18 @@ void Candidates<S, D>::build(S radius, S skin, const E& execute) {
   }
   outer_rows_.clear();
   outer_member_.clear();
-  for (std::size_t s = 0; s < sides.size(); ++s) build_side(static_cast<std::uint32_t>(s), radius, skin, execute);
+  for (std::size_t s = 0; s < sides.size(); ++s) build_side(static_cast<std::uint32_t>(s), execute);
   require(outer_member_.size() < none, "hmps: ", outer_member_.size(),
           " candidates for contact are more than a 32-bit index can number; name fewer slaves and masters");
-  outer_rows_.push_back({0, 0, 0, static_cast<Index>(outer_member_.size()), 0, 0});
+  outer_rows_.push_back({0, 0, 0, static_cast<Index>(outer_member_.size()), 0, 0, 0});
   kept_member_.resize(outer_member_.size());
   built_ = true;
   ++rebuilds;
 }
 
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 template <class E>
-void Candidates<S, D>::build_side(std::uint32_t s, S radius, S skin, const E& execute) {
+void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
   Side& side = sides[s];
   const OrganRange &a = organs[side.slaves], &b = organs[side.masters];
   const Pair& pair = pairs[side.pair];
@@ -122,7 +123,7 @@ void Candidates<S, D>::build_side(std::uint32_t s, S radius, S skin, const E& ex
   Point low = Point::Constant(far), high = -low, low_a = low, high_a = high;
   S widest = 0;
   for (std::size_t m = b.begin; m < b.end; ++m)
-    if (flags_[m] & is_master) {
+    if (compression_[m] > 0) {
       low = low.cwiseMin(place_[m]);
       high = high.cwiseMax(place_[m]);
       widest = std::max(widest, reach_[m]);
@@ -134,11 +135,11 @@ void Candidates<S, D>::build_side(std::uint32_t s, S radius, S skin, const E& ex
     low_a = low_a.cwiseMin(place_[m]);
     high_a = high_a.cwiseMax(place_[m]);
     const Point out = (low - place_[m]).cwiseMax(place_[m] - high);
-    if (out.maxCoeff() <= widest + skin) slaves.push_back(static_cast<Index>(m));
+    if (out.maxCoeff() <= widest + skin_) slaves.push_back(static_cast<Index>(m));
   }
   // Organs far apart bear as much motion as lies between them; all slaves excluded: any.
   const S apart = low_a[0] <= high_a[0] ? (low - high_a).cwiseMax(low_a - high).maxCoeff() - widest : far;
-  side.limit = S(0.999) * std::max(skin, apart);
+  side.limit = S(0.999) * std::max(skin_, apart);
   if (slaves.empty()) return;
   Point low_s = Point::Constant(far), high_s = -low_s;
   for (const Index m : slaves) {
@@ -146,18 +147,17 @@ void Candidates<S, D>::build_side(std::uint32_t s, S radius, S skin, const E& ex
     high_s = high_s.cwiseMax(place_[m]);
   }
   for (std::size_t m = b.begin; m < b.end; ++m) {
-    if (!(flags_[m] & is_master)) continue;
     const Point out = (low_s - place_[m]).cwiseMax(place_[m] - high_s);
-    if (reach_[m] > 0 && out.maxCoeff() <= reach_[m] + skin) masters.push_back(static_cast<Index>(m));
+    if (compression_[m] > 0 && out.maxCoeff() <= reach_[m] + skin_) masters.push_back(static_cast<Index>(m));
   }
   Grid<S, D> grid;
-  grid.build(slaves.size(), radius + skin, [&](std::size_t k) { return place_[slaves[k]]; });
+  grid.build(slaves.size(), radius_ + skin_, [&](std::size_t k) { return place_[slaves[k]]; });
   constexpr std::size_t batch = 256;
   std::vector<std::vector<Near>> found((masters.size() + batch - 1) / batch);
   execute(found.size(), [&](std::size_t q) {
     for (std::size_t l = q * batch; l < std::min(masters.size(), (q + 1) * batch); ++l) {
       const Index m = masters[l];
-      grid.visit(place_[m], reach_[m] + skin, [&](Index k, S) {
+      grid.visit(place_[m], reach_[m] + skin_, [&](Index k, S) {
         if (!pair.excluded || !pair.excluded(particle_[slaves[k]], particle_[m])) found[q].push_back({k, m});
       });
     }
@@ -170,7 +170,7 @@ void Candidates<S, D>::build_side(std::uint32_t s, S radius, S skin, const E& ex
   for (std::size_t k = 0; k < slaves.size(); ++k) {
     if (count[k + 1] > 0)
       outer_rows_.push_back(
-          {particle_[slaves[k]], unique_[slaves[k]], s, static_cast<Index>(first + count[k]), slaves[k], 0});
+          {particle_[slaves[k]], unique_[slaves[k]], s, static_cast<Index>(first + count[k]), slaves[k], 0, 0});
     count[k + 1] += count[k];
   }
   outer_member_.resize(first + count.back());

@@ -2,47 +2,47 @@
 #pragma once
 
 #include "hmps/contact/candidates.hpp"
+#include "hmps/contact/master_surface.hpp"
 
 namespace hmps::detail {
 
 /// Three particles of each organ tell when whole organs were moved by other means than steps in time.
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 template <class X>
-bool Candidates<S, D>::probe(const X& x) const {
+bool Candidates<S, D, Ball>::probe(const X& x) const {
   for (const OrganRange& organ : organs)
     for (const std::size_t m : {organ.begin, (organ.begin + organ.end) / 2, organ.end - 1})
       if (!((x[particle_[m]].template cast<S>() - place_[m]).squaredNorm() <= stray_squared_)) return true;
   return false;
 }
 
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 template <class X, class V, class Gradients, class E>
-void Candidates<S, D>::check(const X& x, const V& v, const Gradients& F, S dt, S radius, S skin, const E& execute) {
+void Candidates<S, D, Ball>::check(const X& x, const V& v, const Gradients& F, S dt, const E& execute) {
   if (partials_.empty()) {
     number();
     built_ = false;
   }
-  const S margin = S(0.4) * skin;
-  measure(x, v, F, radius, execute);
+  measure(x, v, F, execute);
   ++checks;
-  if (built_ && S(2) * step_ + step_growth_ > margin) ++late;
+  if (built_ && S(2) * step_ + step_growth_ > margin()) ++late;
   for (const Side& side : sides) {
     const OrganRange &a = organs[side.slaves], &b = organs[side.masters];
-    if (!(a.motion + b.motion + (a.moved - b.moved).norm() + b.growth + margin < side.limit)) built_ = false;
+    if (!(a.motion + b.motion + (a.moved - b.moved).norm() + b.growth + margin() < side.limit)) built_ = false;
   }
-  if (!built_) build(radius, skin, execute);
-  select(margin, execute);
+  if (!built_) build(execute);
+  select(execute);
   // Half the margin for motion at twice the present speeds of both partners; growth of the reach is
   // slower than that, and is seen at the next check.
-  const S naps = S(0.5) * margin / (S(2) * speed_ * dt + std::numeric_limits<S>::min());
+  const S naps = S(0.5) * margin() / (S(2) * speed_ * dt + std::numeric_limits<S>::min());
   naps_ = naps < S(longest_nap) ? static_cast<std::size_t>(naps) : longest_nap;
-  stray_squared_ = S(0.16) * margin * margin;
+  stray_squared_ = S(0.16) * margin() * margin();
 }
 
 /// Places, reaches, and how far all moved since the outer lists were built and since the last check.
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 template <class X, class V, class Gradients, class E>
-void Candidates<S, D>::measure(const X& x, const V& v, const Gradients& F, S radius, const E& execute) {
+void Candidates<S, D, Ball>::measure(const X& x, const V& v, const Gradients& F, const E& execute) {
   execute(partials_.size(), [&](std::size_t q) {
     Partial& part = partials_[q];
     const Point shift = organs[part.organ].moved;
@@ -60,12 +60,16 @@ void Candidates<S, D>::measure(const X& x, const V& v, const Gradients& F, S rad
       }
       speed = std::max(speed, v[particle_[m]].template cast<S>().squaredNorm());
       place_[m] = place;
-      if (!(flags_[m] & is_master)) continue;
-      S reach = radius * stretch_bound<S, D>(F[particle_[m]].template cast<S>());
-      if (!std::isfinite(reach)) reach = S(-1);
-      if (built_) {
-        growth = std::max(growth, reach - built_reach_[m]);
-        step_growth = std::max(step_growth, reach - reach_[m]);
+      const Matrix<S, D> deformation = F[particle_[m]].template cast<S>();
+      const S reach = radius_ * stretch_bound<S, D>(deformation);
+      if (flags_[m] & is_master) {
+        const S compression = stretch_bound<S, D>(inverse<S, D>(deformation));
+        // A master that is squashed flat is no wall.
+        compression_[m] = std::isfinite(compression) && std::isfinite(reach) ? compression : S(-1);
+        if (built_) {
+          growth = std::max(growth, reach - built_reach_[m]);
+          step_growth = std::max(step_growth, reach - reach_[m]);
+        }
       }
       reach_[m] = reach;
     }
@@ -103,9 +107,9 @@ void Candidates<S, D>::measure(const X& x, const V& v, const Gradients& F, S rad
   }
 }
 
-template <class S, int D>
+template <class S, int D, Metaball Ball>
 template <class X>
-void Candidates<S, D>::fail(const X& x, const OrganRange& organ) const {
+void Candidates<S, D, Ball>::fail(const X& x, const OrganRange& organ) const {
   for (std::size_t m = organ.begin; m < organ.end; ++m)
     for (int c = 0; c < D; ++c)
       if (!std::isfinite(x(particle_[m], c)))
@@ -116,41 +120,56 @@ void Candidates<S, D>::fail(const X& x, const OrganRange& organ) const {
                            "' to overflow; the run has become unstable: try a shorter step or a softer penalty"));
 }
 
-/// The inner list: what lies within reach plus `margin` now.
-template <class S, int D>
+/// Sorts out the masters of outer row `r` that the inner list keeps; none of them where the slave
+/// cannot touch before the next check, for which C is bounded from above with every master nearer by
+/// the margin. Returns the bound of |F_j^-1|.
+template <class S, int D, Metaball Ball>
+S Candidates<S, D, Ball>::keep(std::size_t r, Index& end) {
+  const OuterRow& row = outer_rows_[r];
+  const Point place = place_[row.member];
+  S density = 0, compression = 0;
+  end = row.begin;
+  for (Index k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
+    const Index m = outer_member_[k];
+    const S reach = reach_[m] + margin(), squared = (place_[m] - place).squaredNorm();
+    if (!(squared <= reach * reach) || compression_[m] < S(0)) continue;
+    kept_member_[end++] = m;
+    compression = std::max(compression, compression_[m]);
+    const S nearest = std::max(S(0), std::sqrt(squared) - margin()) / reach_[m];
+    density += Ball::value(std::min(S(1), nearest * nearest));
+  }
+  // Five per cent for what the gradients may do meanwhile.
+  compression *= S(1.05);
+  const S l0 = normal_density.spacing(), support = S(1.05) * S(0.5) * l0 * reach_[row.member] / radius_;
+  if (surface_distance(S(1), normal_density.inverse(density).value, l0) >= support * compression) end = row.begin;
+  return compression;
+}
+
+template <class S, int D, Metaball Ball>
 template <class E>
-void Candidates<S, D>::select(S margin, const E& execute) {
+void Candidates<S, D, Ball>::select(const E& execute) {
   const std::size_t outer = outer_rows_.size() - 1;
   constexpr std::size_t batch = 64;
   execute((outer + batch - 1) / batch, [&](std::size_t q) {
-    for (std::size_t r = q * batch; r < std::min(outer, (q + 1) * batch); ++r) {
-      OuterRow& row = outer_rows_[r];
-      const Point place = place_[row.member];
-      Index end = row.begin;
-      for (std::size_t k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
-        const Index m = outer_member_[k];
-        const S reach = reach_[m] + margin;
-        if (reach_[m] > S(0) && (place_[m] - place).squaredNorm() <= reach * reach) kept_member_[end++] = m;
-      }
-      row.kept = end;
-    }
+    for (std::size_t r = q * batch; r < std::min(outer, (q + 1) * batch); ++r)
+      outer_rows_[r].compression = keep(r, outer_rows_[r].kept);
   });
   rows.clear();
   candidate_member_.clear();
   for (std::size_t r = 0; r < outer; ++r) {
     const OuterRow& row = outer_rows_[r];
     if (row.kept == row.begin) continue;
-    rows.push_back({row.particle, row.unique, row.side, static_cast<Index>(candidate_member_.size())});
+    rows.push_back({row.particle, row.unique, row.side, static_cast<Index>(candidate_member_.size()), row.compression});
     candidate_member_.insert(candidate_member_.end(), kept_member_.begin() + row.begin,
                              kept_member_.begin() + row.kept);
   }
-  rows.push_back({0, 0, 0, static_cast<Index>(candidate_member_.size())});
+  rows.push_back({0, 0, 0, static_cast<Index>(candidate_member_.size()), 0});
   transpose();
 }
 
 /// Numbers the slots and the touched particles of the inner list and lists what refers to each.
-template <class S, int D>
-void Candidates<S, D>::transpose() {
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::transpose() {
   const std::size_t row_count = rows.size() - 1;
   // Members ascend, so slots follow the particles' order.
   for (const Index m : candidate_member_) slot_of_member_[m] = 0;

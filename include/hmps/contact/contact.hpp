@@ -66,14 +66,15 @@ struct ContactReport {
 template <class S, int D, Metaball Ball = PaperMetaball, FrictionLaw Friction = CorrectedFriction>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
-  using Lists = detail::Candidates<S, D>;
+  using Lists = detail::Candidates<S, D, Ball>;
   using Point = Vector<S, D>;
   using Tensor = Matrix<S, D>;
 
  public:
   /// Throws `InputError` on settings that are not finite or out of range.
   explicit MetaballContact(const ContactSettings& settings)
-      : settings_(settings), normal_density_(static_cast<S>(settings.spacing)) {
+      : settings_(settings),
+        lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.skin * settings.spacing)) {
     require(settings.density > 0 && std::isfinite(settings.density), "hmps: the density for contact is ",
             settings.density, " kg/m3; give a positive number");
     require(settings.friction >= 0 && std::isfinite(settings.friction), "hmps: the friction coefficient is ",
@@ -125,7 +126,7 @@ class MetaballContact {
     for (const Index r : touching_) {
       const auto& side = lists_.sides[lists_.rows[r].side];
       if (side.pair != pair) continue;
-      const Vector<double, D> force = state_[r].force.template cast<double>();
+      const Vector<double, D> force = force_[r].template cast<double>();
       sum += side.slaves == lists_.pairs[pair].first ? force : -force;
     }
     return sum * std::pow(settings_.spacing, D);
@@ -134,12 +135,15 @@ class MetaballContact {
  private:
   struct Master {
     Point x;
-    Tensor B;       // F^-1
-    S compression;  // bound of the largest singular value of B
+    Tensor A;  // F^-T F^-1
+  };
+  struct Moving {
+    Tensor B;  // F^-1
+    Point v;
   };
   struct RowState {
-    Point normal, force, slip;  // slip: v_im, then its tangential part
-    S penetration, over_density;
+    Point normal, slip;  // slip: v_im
+    S penetration;
   };
   struct Batch {
     std::size_t count, deep;
@@ -154,16 +158,21 @@ class MetaballContact {
   bool touch(std::size_t r, const X& x, const V& v, const G& F, bool& deep);
 
   void resize();
-  template <class X, class G, class E>
-  bool gather(const X& x, const G& F, const E& execute);
+  template <class X, class V, class G, class E>
+  bool gather(const X& x, const V& v, const G& F, const E& execute);
+  template <class E>
+  void weigh(const E& execute);
+  template <class T, class E>
+  void hand_out(const T& f, const E& execute) const;
 
   ContactSettings settings_;
-  NormalDensity<S, D, Ball> normal_density_;
   Lists lists_;
   std::vector<Master> masters_;  // per slot
-  std::vector<S> ball_;          // per candidate: c
+  std::vector<Moving> moving_;
+  std::vector<std::uint8_t> slot_hit_;
+  std::vector<S> weight_;        // per candidate: c / C where the row touches, else 0
   std::vector<RowState> state_;  // per row
-  std::vector<std::uint8_t> row_hit_, slot_hit_;
+  std::vector<Point> force_;
   std::vector<Index> batch_rows_, touching_;
   std::vector<Batch> batches_;
   std::vector<S> load_;  // per touched particle: N
