@@ -45,7 +45,9 @@ using Cases = testing::Types<Case<float, 2>, Case<double, 2>, Case<float, 3>, Ca
 TYPED_TEST_SUITE(Combine, Cases);
 
 TYPED_TEST(Combine, SetOperationsAgreeWithSetsOfPoints) {
-  const auto& [a, b, c] = std::tie(this->left, this->right, this->box);
+  const auto& a = this->left;
+  const auto& b = this->right;
+  const auto& c = this->box;
   const auto any = hmps::unite(a, b, c);
   const auto all = hmps::intersect(a, b, c);
   const auto rest = hmps::subtract(a, b, c);
@@ -83,7 +85,8 @@ TYPED_TEST(Combine, OffsetLayerAndShellMeasureFromTheSurface) {
 
 TYPED_TEST(Combine, SmoothOperationsAddAFilletOnlyWhereTheShapesMeet) {
   using S = typename TypeParam::S;
-  const auto& [a, b] = std::tie(this->left, this->right);
+  const auto& a = this->left;
+  const auto& b = this->right;
   const S width = S(0.5);
   const auto any = hmps::smooth_unite(a, b, width);
   const auto all = hmps::smooth_intersect(a, b, width);
