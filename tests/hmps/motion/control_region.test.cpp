@@ -76,7 +76,7 @@ TYPED_TEST(ControlRegionTest, DriftLandsOnTheMotionAfterThousandsOfSteps) {
   EXPECT_GT((region.position(0, 1.0) - this->at_rest[1].template cast<double>()).norm(), 0.005);
   // The first and the last step are slow, nothing is kicked: below the speeds in between.
   EXPECT_LT(fastest, 1);
-  for (const std::size_t i : {0, 2, 3, 4, 7}) EXPECT_EQ(this->positions[i], this->at_rest[i]);
+  for (const std::size_t i : {0u, 2u, 3u, 4u, 7u}) EXPECT_EQ(this->positions[i], this->at_rest[i]);
 }
 
 TYPED_TEST(ControlRegionTest, StartsWithoutAJumpOfVelocity) {
