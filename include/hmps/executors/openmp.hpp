@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <exception>
 
+#include "hmps/core/error.hpp"
+
 namespace hmps {
 
 /// Executor on OpenMP threads; opt-in: compile and link with OpenMP yourself. An exception thrown
@@ -15,6 +17,7 @@ struct OpenMP {
 
   template <class Body>
   void operator()(std::size_t n, Body&& body) const {
+    require(threads >= 1, "hmps: the number of OpenMP threads is ", threads, "; it must be at least 1");
     std::exception_ptr failure;
     const auto end = static_cast<std::ptrdiff_t>(n);
 #pragma omp parallel for num_threads(threads) schedule(static)
