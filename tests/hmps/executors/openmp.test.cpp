@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/executors/openmp.hpp"
+
+#include <gtest/gtest.h>
+
+#include "same_bits.hpp"
+
+namespace {
+
+static_assert(hmps::Executor<hmps::OpenMP>);
+
+TEST(OpenMP, CallsTheBodyOnceForEach) {
+  for (const int threads : {1, 2, 3, 4}) same_bits::call_every_index_once(hmps::OpenMP{threads});
+  same_bits::call_every_index_once(hmps::OpenMP{});
+}
+
+TEST(OpenMP, HandsExceptionsToTheCaller) {
+  for (const int threads : {1, 4}) same_bits::pass_exceptions_on(hmps::OpenMP{threads});
+}
+
+TEST(OpenMP, RefusesNoThreads) {
+  EXPECT_THROW(hmps::OpenMP{0}(1, [](std::size_t) {}), hmps::InputError);
+}
+
+TEST(OpenMP, GivesTheSameBitsAsOneThread) {
+  const auto check = [](const auto& probe) {
+    const auto expected = probe(hmps::Serial{});
+    for (const int threads : {1, 2, 3, 4})
+      EXPECT_TRUE(same_bits::identical(probe(hmps::OpenMP{threads}), expected)) << threads;
+  };
+  check(same_bits::Probe<hmps::LatticeBonds<float, 3>>());
+  check(same_bits::Probe<hmps::BondList<double, 3>>());
+}
+
+}  // namespace

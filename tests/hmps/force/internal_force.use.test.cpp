@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// The internal force as users call it: on state of any layout, with laws and terms of their own.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "../neighbours/bonds_of_a_scene.hpp"
+#include "equations.hpp"
+#include "hmps/elastic/deformation_gradient.hpp"
+#include "hmps/elastic/elastic_force.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/stabilise/artificial.hpp"
+#include "hmps/viscosity/viscous.hpp"
+
+namespace {
+
+using namespace equations;
+using bonds_of_a_scene::error_of;
+using bonds_of_a_scene::has;
+using Lattice = hmps::LatticeBonds<float, 3>;
+
+scenes::Scene<3> scene_of(const std::string& name) {
+  for (auto& scene : scenes::all<3>())
+    if (scene.name == name) return scene;
+  throw std::runtime_error(name);
+}
+const hmps::MooneyRivlin<double> law{1700, 1500, 1e4};
+
+// The user's memory decides nothing: the same numbers give the same bits.
+TEST(InternalForce, WorksOnTheUsersOwnMemory) {
+  for (const char* name : {"box whose rows are long in the first direction", "shuffled"}) {
+    const auto scene = scene_of(name);
+    const std::size_t n = scene.x.size();
+    const auto bonds = make_bonds<Lattice>(scene);
+    auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::viscous(1000, 2e-3));
+    Vectors<3> expected(n);
+    force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(expected));
+
+    struct Particle {
+      std::array<double, 3> x;
+      int body;
+      double v[3];
+      Eigen::Vector3f f;
+    };
+    std::vector<Particle> structs(n);
+    std::array<std::vector<double>, 9> arrays;
+    for (auto& a : arrays) a.resize(n);
+    Eigen::Matrix3Xd columns(3, n), f_columns(3, n);
+    std::vector<double> memory(n * 11);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto d = static_cast<Eigen::Index>(c);
+        structs[i].x[c] = arrays[c][i] = columns(d, static_cast<Eigen::Index>(i)) = scene.x[i][d];
+        structs[i].v[c] = arrays[3 + c][i] = memory[11 * i + 1 + c] = scene.v[i][d];
+      }
+    force(hmps::vectors(structs, &Particle::x), hmps::vectors(structs, &Particle::v),
+          hmps::vectors(structs, &Particle::f));
+    force(hmps::vectors(arrays[0], arrays[1], arrays[2]), hmps::vectors(arrays[3], arrays[4], arrays[5]),
+          hmps::vectors(arrays[6], arrays[7], arrays[8]));
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(structs[i].f, expected[i].cast<float>()) << i;
+      for (int d = 0; d < 3; ++d) ASSERT_EQ(arrays[6 + static_cast<std::size_t>(d)][i], expected[i][d]) << i;
+    }
+    force(hmps::vectors(columns), hmps::vectors<3>(memory.data() + 1, n, 11 * sizeof(double)),
+          hmps::vectors(f_columns));
+    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(f_columns.col(static_cast<Eigen::Index>(i)), expected[i]) << i;
+  }
+}
+
+// On a lattice the order of the user's particles decides nothing either.
+TEST(InternalForce, DoesNotDependOnTheOrderOfTheParticles) {
+  const auto scene = scene_of("L");
+  const std::size_t n = scene.x.size();
+  std::vector<hmps::Index> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = static_cast<hmps::Index>(i);
+  scenes::Random(8).shuffle(order);
+  auto shuffled = scene;
+  for (std::size_t i = 0; i < n; ++i) {
+    shuffled.reference[i] = scene.reference[order[i]];
+    shuffled.x[i] = scene.x[order[i]];
+  }
+  const auto evaluate = [](const auto& s) {
+    const auto bonds = make_bonds<hmps::LatticeBonds<double, 3>>(s);
+    auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4));
+    Vectors<3> f(s.x.size());
+    force(hmps::vectors(s.x), hmps::vectors(f));
+    return f;
+  };
+  const auto f = evaluate(scene), g = evaluate(shuffled);
+  double largest = 0;
+  for (const auto& value : f) largest = std::max(largest, value.norm());
+  // The lattice hangs on particle 0, so that r0 is rounded alike; u is not: another state's rounding.
+  for (std::size_t i = 0; i < n; ++i) ASSERT_LE((f[order[i]] - g[i]).norm(), 1e-9 * largest) << i;
+}
+
+/// W = mu (C - 1) : (C - 1) / 4: what a user's own law looks like.
+struct OwnLaw {
+  double mu;
+  template <class T, int D>
+  hmps::Matrix<T, D> second_piola_kirchhoff(const hmps::Matrix<T, D>& C, const T&) const {
+    hmps::Matrix<T, D> S;
+    for (int k = 0; k < D * D; ++k) S(k % D, k / D) = T(mu) * (C(k % D, k / D) - T(k % D == k / D ? 1 : 0));
+    return S;
+  }
+};
+/// Springs of stiffness k of one particle and that of its neighbour, w (k_i + k_j) r_ij.
+struct OwnSprings {
+  hmps::ScalarView<const float> stiffness;
+  template <class K, int D>
+  void couple(const hmps::BlockOfParticles<K, D>& at, hmps::Coupling<K, D>& coupling) const {
+    coupling.c += at(stiffness);
+  }
+};
+/// d (v_j - v_i) w with a number of the user's own.
+struct OwnDamping {
+  template <class K, int D>
+  double damping(const hmps::Blocks<K, D>&) const {
+    return 250;
+  }
+};
+
+template <class B>
+class OwnParts : public testing::Test {};
+using Models = testing::Types<hmps::LatticeBonds<double, 3>, hmps::BondList<float, 3>>;
+TYPED_TEST_SUITE(OwnParts, Models);
+
+TYPED_TEST(OwnParts, JoinTheSweeps) {
+  using K = typename TypeParam::Scalar;
+  const auto scene = scene_of("box with holes");
+  const std::size_t n = scene.x.size();
+  const auto bonds = make_bonds<TypeParam>(scene);
+  std::vector<float> stiffness(n);
+  for (std::size_t i = 0; i < n; ++i) stiffness[i] = 1e6f * (1 + static_cast<float>(i % 5));
+  Vectors<3> f(n);
+  std::vector<hmps::Matrix<double, 3>> F(n);
+  auto force =
+      hmps::internal_force(bonds, hmps::elastic(OwnLaw{3000}), hmps::record(hmps::matrices(F)),
+                           OwnSprings{hmps::scalars(stiffness)}, hmps::viscous(density, viscosity), OwnDamping{});
+  force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(f));
+
+  const Expected<3> plain(scene, Materials(n), bonds.standard_lambda(), bonds.standard_density());
+  std::vector<Eigen::Vector3d> expected(n, Eigen::Vector3d::Zero());
+  plain.body.elastic(
+      plain.F,
+      [](std::size_t, const Eigen::Matrix3d& G) -> Eigen::Matrix3d {
+        return 3000 * (G.transpose() * G - Eigen::Matrix3d::Identity());
+      },
+      expected);
+  for (std::size_t i = 0; i < n; ++i)
+    plain.body.for_each_bond(i, [&](const auto& b) {
+      expected[i] += b.w * double(stiffness[i] + stiffness[b.j]) * (plain.x[b.j] - plain.x[i]);
+      expected[i] += b.w * 250 * (plain.v[b.j] - plain.v[i]);
+    });
+  const Tolerance<K, 3> tolerance(scene);
+  // Springs: c r is summed as c r0 + c u; 26 bonds of up to 2e7 Pa/m2 at 2 l0.
+  const double springs = 26 * 2e7 * scene.spacing * tolerance.gradient;
+  EXPECT_LE(largest_difference<3>(f, [&](std::size_t i) { return expected[i] + plain.viscous[i]; }),
+            tolerance.elastic + tolerance.viscous + springs + 250 * 100 * std::numeric_limits<K>::epsilon());
+  for (std::size_t i = 0; i < n; ++i) ASSERT_LE((F[i] - plain.F[i]).norm(), tolerance.gradient);
+}
+
+TEST(InternalForce, OfNoTermsIsZeroAndKeepsNoScratch) {
+  const auto scene = scene_of("box");
+  const auto bonds = make_bonds<Lattice>(scene);
+  auto force = hmps::internal_force(bonds);
+  Vectors<3> f(scene.x.size(), hmps::Vector<double, 3>::Ones());
+  force(hmps::vectors(scene.x), hmps::vectors(f));
+  for (const auto& value : f) ASSERT_EQ(value, (hmps::Vector<double, 3>::Zero()));
+  EXPECT_EQ(force.bytes(), 0u);
+  EXPECT_EQ(&force.bonds(), &bonds);
+}
+
+// One object serves any number of states in turn: nothing of one is left in the next.
+TEST(InternalForce, RemembersNoState) {
+  const auto scene = scene_of("thin sheet");
+  const auto bonds = make_bonds<Lattice>(scene);
+  auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4));
+  Vectors<3> f(scene.x.size()), g(scene.x.size());
+  force(hmps::vectors(scene.x), hmps::vectors(f));
+  auto broken = scene.x;
+  broken[7][1] = std::numeric_limits<double>::quiet_NaN();
+  force(hmps::vectors(broken), hmps::vectors(g));
+  EXPECT_TRUE(std::isnan(g[7][1]));
+  force(hmps::vectors(scene.x), hmps::vectors(g));
+  EXPECT_EQ(f, g);
+}
+
+TEST(InternalForce, RefusesViewsOfTheWrongSize) {
+  const auto scene = scene_of("box");
+  const auto bonds = make_bonds<Lattice>(scene);
+  const std::size_t n = scene.x.size();
+  auto force = hmps::internal_force(bonds, hmps::viscous(1000, 2e-3));
+  Vectors<3> right(n), wrong(n - 1);
+  const auto r = hmps::vectors(right), w = hmps::vectors(wrong);
+  const std::string sizes = " holds " + std::to_string(n - 1) + " particles but " + std::to_string(n) + " are needed";
+  EXPECT_TRUE(has(error_of([&] { force(w, r, r); }), "positions" + sizes));
+  EXPECT_TRUE(has(error_of([&] { force(r, w, r); }), "velocities" + sizes));
+  EXPECT_TRUE(has(error_of([&] { force(r, r, w); }), "forces" + sizes));
+}
+
+// Only a force without damping may be asked for without velocities.
+template <class Force>
+concept WithoutVelocities = requires(Force& force, const hmps::VectorView<double, 3>& x) {
+  force(x, x);
+};
+static_assert(WithoutVelocities<hmps::InternalForce<Lattice, hmps::Artificial<double>>>);
+static_assert(!WithoutVelocities<hmps::InternalForce<Lattice, hmps::Viscous>>);
+// The bonds must outlive the force.
+template <class B>
+concept TakesTemporaryBonds = requires(B&& bonds) {
+  hmps::internal_force(std::move(bonds));
+};
+static_assert(!TakesTemporaryBonds<Lattice>);
+
+}  // namespace
