@@ -212,6 +212,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const hmps::B
   }
   detail::declare_contacts(scene, body);
   if (settings.constrictors) detail::add_constrictors(scene, anatomy, box, origin, read_doors(settings.data));
+  std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
   return scene;
 }
 
