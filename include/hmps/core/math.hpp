@@ -4,13 +4,14 @@
 #include <cmath>
 #include <type_traits>
 
+#include "hmps/core/lanes.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps {
 
 // What the laws and the kernels need of small tensors, in few operations. `T` may be an arithmetic
 // type or a pack of lanes: only + - * / and functions found by argument-dependent lookup are used,
-// and no branch depends on a value.
+// and no branch depends on a value. All of it is inlined, so that packs stay in registers.
 
 /// `x` to the power -1/3. Packs of lanes bring their own overload. For `x < 0` the real root.
 template <class T>
@@ -24,7 +25,7 @@ requires std::is_arithmetic_v<T>
 
 /// The trace of `M`.
 template <class T, int D>
-[[nodiscard]] T trace(const Matrix<T, D>& M) {
+[[nodiscard]] HMPS_INLINE T trace(const Matrix<T, D>& M) {
   static_assert(D == 2 || D == 3, "hmps: tensors are 2 x 2 or 3 x 3");
   if constexpr (D == 2) {
     return M(0, 0) + M(1, 1);
@@ -35,7 +36,7 @@ template <class T, int D>
 
 /// The double contraction A : B, the sum of the products of equal components.
 template <class T, int D>
-[[nodiscard]] T contract(const Matrix<T, D>& A, const Matrix<T, D>& B) {
+[[nodiscard]] HMPS_INLINE T contract(const Matrix<T, D>& A, const Matrix<T, D>& B) {
   T sum = A(0, 0) * B(0, 0);
   for (int k = 1; k < D * D; ++k) sum = sum + A(k % D, k / D) * B(k % D, k / D);
   return sum;
@@ -43,7 +44,7 @@ template <class T, int D>
 
 /// The determinant of `M`.
 template <class T, int D>
-[[nodiscard]] T determinant(const Matrix<T, D>& M) {
+[[nodiscard]] HMPS_INLINE T determinant(const Matrix<T, D>& M) {
   static_assert(D == 2 || D == 3, "hmps: tensors are 2 x 2 or 3 x 3");
   if constexpr (D == 2) {
     return M(0, 0) * M(1, 1) - M(0, 1) * M(1, 0);
@@ -55,7 +56,7 @@ template <class T, int D>
 
 /// The cofactor matrix of `M`, det(M) M^-T: the derivative of the determinant. Finite for every `M`.
 template <class T, int D>
-[[nodiscard]] Matrix<T, D> cofactor(const Matrix<T, D>& M) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> cofactor(const Matrix<T, D>& M) {
   static_assert(D == 2 || D == 3, "hmps: tensors are 2 x 2 or 3 x 3");
   Matrix<T, D> K;
   if constexpr (D == 2) {
@@ -77,7 +78,7 @@ template <class T, int D>
 /// The cofactor matrix of a symmetric `M`, which is symmetric too: det(M) M^-1 with six cofactors
 /// in place of nine.
 template <class T, int D>
-[[nodiscard]] Matrix<T, D> symmetric_cofactor(const Matrix<T, D>& M) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> symmetric_cofactor(const Matrix<T, D>& M) {
   if constexpr (D == 2) {
     return cofactor(M);
   } else {
@@ -94,7 +95,7 @@ template <class T, int D>
 
 /// The inverse of `M`. A singular `M` gives infinities or NaN: check `determinant` first.
 template <class T, int D>
-[[nodiscard]] Matrix<T, D> inverse(const Matrix<T, D>& M) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> inverse(const Matrix<T, D>& M) {
   const Matrix<T, D> K = cofactor(M);
   T det = M(0, 0) * K(0, 0);
   for (int c = 1; c < D; ++c) det = det + M(0, c) * K(0, c);
@@ -107,7 +108,7 @@ template <class T, int D>
 
 /// The matrix product A B, without any detour of the linear-algebra library.
 template <class T, int D>
-[[nodiscard]] Matrix<T, D> product(const Matrix<T, D>& A, const Matrix<T, D>& B) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> product(const Matrix<T, D>& A, const Matrix<T, D>& B) {
   Matrix<T, D> result;
   for (int c = 0; c < D; ++c) {
     for (int r = 0; r < D; ++r) {
@@ -121,7 +122,7 @@ template <class T, int D>
 
 /// The right Cauchy-Green tensor C = F^T F; symmetric to the last bit.
 template <class T, int D>
-[[nodiscard]] Matrix<T, D> right_cauchy_green(const Matrix<T, D>& F) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> right_cauchy_green(const Matrix<T, D>& F) {
   Matrix<T, D> C;
   for (int c = 0; c < D; ++c) {
     for (int r = 0; r <= c; ++r) {

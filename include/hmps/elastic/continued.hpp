@@ -46,7 +46,7 @@ struct Continued {
 
   /// dW/dF in Pa at any deformation gradient `F`.
   template <class T, int D>
-  [[nodiscard]] Matrix<T, D> first_piola_kirchhoff(const Matrix<T, D>& F) const {
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> first_piola_kirchhoff(const Matrix<T, D>& F) const {
     const Matrix<T, D> C = right_cauchy_green(F);
     const T J = determinant(F), bound = T(j_min);
     const auto inside = J >= bound;

@@ -10,7 +10,7 @@ namespace hmps::detail {
 
 /// The first invariant I1 of C; in plane strain C33 = 1 counts too.
 template <class T, int D>
-[[nodiscard]] T first_invariant(const Matrix<T, D>& C) {
+[[nodiscard]] HMPS_INLINE T first_invariant(const Matrix<T, D>& C) {
   if constexpr (D == 2) {
     return trace(C) + T(1);
   } else {
@@ -21,7 +21,7 @@ template <class T, int D>
 /// The second invariant I2 of C from `C` and its cofactor matrix `K`; in plane strain the cofactor of
 /// C33 = 1 is the determinant of the in-plane part, and the other two are C22 and C11.
 template <class T, int D>
-[[nodiscard]] T second_invariant(const Matrix<T, D>& C, const Matrix<T, D>& K) {
+[[nodiscard]] HMPS_INLINE T second_invariant(const Matrix<T, D>& C, const Matrix<T, D>& K) {
   if constexpr (D == 2) {
     return determinant(C) + trace(C);
   } else {
@@ -32,8 +32,8 @@ template <class T, int D>
 /// The symmetric tensor `unit` I - `linear` C + `cofactors` K, the shape of S in every law of the
 /// invariants.
 template <class T, int D>
-[[nodiscard]] Matrix<T, D> combine(const Matrix<T, D>& C, const Matrix<T, D>& K, const T& unit, const T& linear,
-                                   const T& cofactors) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> combine(const Matrix<T, D>& C, const Matrix<T, D>& K, const T& unit,
+                                               const T& linear, const T& cofactors) {
   Matrix<T, D> S;
   for (int c = 0; c < D; ++c) {
     S(c, c) = unit + (cofactors * K(c, c) - linear * C(c, c));

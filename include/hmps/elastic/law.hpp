@@ -57,7 +57,7 @@ concept LawWithEnergy = ConstitutiveLaw<Law, T, D> &&(
 
 /// The first Piola-Kirchhoff stress in Pa, \paper{7}: F S, at the deformation gradient `F`.
 template <class Law, class T, int D>
-[[nodiscard]] Matrix<T, D> first_piola_kirchhoff(const Law& law, const Matrix<T, D>& F) {
+[[nodiscard]] HMPS_INLINE Matrix<T, D> first_piola_kirchhoff(const Law& law, const Matrix<T, D>& F) {
   static_assert(ConstitutiveLaw<Law, T, D>,
                 "hmps: a law needs second_piola_kirchhoff(C, J) or first_piola_kirchhoff(F), const, taking and "
                 "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar");

@@ -37,7 +37,7 @@ struct LinearElastic {
 
   /// dW/dF in Pa at the deformation gradient `F`; symmetric.
   template <class T, int D>
-  [[nodiscard]] Matrix<T, D> first_piola_kirchhoff(const Matrix<T, D>& F) const {
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> first_piola_kirchhoff(const Matrix<T, D>& F) const {
     T strain_trace = F(0, 0) - T(1);
     for (int c = 1; c < D; ++c) strain_trace = strain_trace + (F(c, c) - T(1));
     const T spherical = T(lambda) * strain_trace;
@@ -61,5 +61,8 @@ struct LinearElastic {
     return T(P(0.125) * lambda) * (strain_trace * strain_trace) + T(P(0.25) * mu) * contract(twice, twice);
   }
 };
+
+template <class P>
+LinearElastic(P, P) -> LinearElastic<P>;
 
 }  // namespace hmps

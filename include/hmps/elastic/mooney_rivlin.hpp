@@ -56,7 +56,7 @@ struct MooneyRivlin {
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F and J = det F > 0.
   template <class T, int D>
-  [[nodiscard]] Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
     const Matrix<T, D> K = symmetric_cofactor(C);
     const T I1 = detail::first_invariant(C);
     const T I2 = detail::second_invariant(C, K);
@@ -81,7 +81,7 @@ struct MooneyRivlin {
 
   /// The factors of I1 and I2 and the volumetric part, as `Continued` needs them.
   template <class T>
-  [[nodiscard]] detail::InvariantFactors<T> invariant_factors(const T& J) const {
+  [[nodiscard]] HMPS_INLINE detail::InvariantFactors<T> invariant_factors(const T& J) const {
     const T root = inverse_cube_root(J);
     const T a = root * root, inverse_J = a * root, volumetric = J - T(1);
     const T g1 = T(c1) * a, g2 = T(c2) * (a * a);
@@ -94,5 +94,8 @@ struct MooneyRivlin {
             .volumetric_curvature = T(P(2) * d1)};
   }
 };
+
+template <class P>
+MooneyRivlin(P, P, P) -> MooneyRivlin<P>;
 
 }  // namespace hmps

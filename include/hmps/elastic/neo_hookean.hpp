@@ -37,7 +37,7 @@ struct NeoHookean {
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F and J = det F > 0.
   template <class T, int D>
-  [[nodiscard]] Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
     const Matrix<T, D> K = symmetric_cofactor(C);
     const T root = inverse_cube_root(J);
     const T a = root * root, inverse_J = a * root;
@@ -61,7 +61,7 @@ struct NeoHookean {
 
   /// The factors of I1 and I2 and the volumetric part, as `Continued` needs them.
   template <class T>
-  [[nodiscard]] detail::InvariantFactors<T> invariant_factors(const T& J) const {
+  [[nodiscard]] HMPS_INLINE detail::InvariantFactors<T> invariant_factors(const T& J) const {
     const T root = inverse_cube_root(J);
     const T a = root * root, inverse_J = a * root, volumetric = J - T(1);
     const T g1 = T(P(0.5) * mu) * a;
@@ -74,5 +74,8 @@ struct NeoHookean {
             .volumetric_curvature = T(kappa)};
   }
 };
+
+template <class P>
+NeoHookean(P, P) -> NeoHookean<P>;
 
 }  // namespace hmps

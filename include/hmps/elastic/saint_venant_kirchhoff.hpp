@@ -38,7 +38,7 @@ struct SaintVenantKirchhoff {
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F. Does not ask for J.
   template <class T, int D>
-  [[nodiscard]] Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T&) const {
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T&) const {
     T strain_trace = C(0, 0) - T(1);
     for (int c = 1; c < D; ++c) strain_trace = strain_trace + (C(c, c) - T(1));
     const T spherical = T(P(0.5) * lambda) * strain_trace;
@@ -59,5 +59,8 @@ struct SaintVenantKirchhoff {
     return T(P(0.125) * lambda) * (strain_trace * strain_trace) + T(P(0.25) * mu) * contract(twice, twice);
   }
 };
+
+template <class P>
+SaintVenantKirchhoff(P, P) -> SaintVenantKirchhoff<P>;
 
 }  // namespace hmps
