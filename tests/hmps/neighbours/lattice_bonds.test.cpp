@@ -73,7 +73,9 @@ TEST(LatticeBonds, TakeATenthOfTheMemoryOfAList) {
   const hmps::BondSettings settings{.spacing = scenes::Scene<3>::spacing};
   const hmps::LatticeBonds<float, 3> lattice(hmps::vectors(points), settings);
   const hmps::BondList<float, 3> list(hmps::vectors(points), settings);
-  const auto own = [](const auto& bonds) { return bonds.bytes() - bonds.hmps::Blocks<float, 3>::bytes(); };
+  const auto own = [](const auto& bonds) {
+    return bonds.bytes() - static_cast<const hmps::Blocks<float, 3>&>(bonds).bytes();
+  };
   EXPECT_LT(10 * own(lattice), own(list));
 }
 
