@@ -15,10 +15,13 @@ struct Materials {
   double d1 = 1e6;                    ///< Pa, D1 of \paper{15}
   double density = 1000;              ///< kg/m3
   double kinematic_viscosity = 2e-3;  ///< m2/s, nu of \paper{21}
-  double penalty_ratio = 0.3;         ///< k~ of \paper{25}
   double stabiliser_ratio = 1;        ///< E_hat over Young's modulus
-  double step_share = 0.85;           ///< of the largest stable step at rest: the body stretches as it swallows
-  double speed_limit = 20;            ///< m/s: half the speed of sound; nothing in a swallow is as fast
+  /// Pressure per penetration in N/m3: k of \paper{22} times the spacing. It belongs to the scene, whatever the step
+  /// and the spacing. The paper's k~ = 0.3 (--penalty-ratio) is stiffer, the more so the smaller the step: contact
+  /// chatters.
+  double contact_stiffness = 2e8;
+  double step_share = 0.6;  ///< of the largest stable step at rest: the body stretches as it swallows
+  double speed_limit = 20;  ///< m/s: half the speed of sound; nothing in a swallow is as fast
 
   [[nodiscard]] double young_of(Organ organ) const { return organ == Organ::epiglottis ? young_epiglottis : young; }
   /// The law of an organ: C1 = C2 from Young's modulus by \paper{18}.

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <hmps/diagnostics/energy.hpp>
+#include <hmps/diagnostics/jacobian.hpp>
+#include <hmps/diagnostics/monitor.hpp>
 #include <string>
 #include <vector>
 
@@ -13,7 +16,6 @@
 #include "scene.hpp"
 #include "series.hpp"
 #include "simulation.hpp"
-#include "summary.hpp"
 
 /// What is looked at while the swallow runs: samples for the series, frames, pictures.
 namespace swallowing {
@@ -28,56 +30,49 @@ namespace swallowing {
 
 /// det F of the free particles.
 template <class S>
-[[nodiscard]] DetF volume(Simulation<S>& simulation, const Scene& scene) {
-  DetF d{0, 0, 1e9, -1e9};
-  double count = 0, within = 0;
-  const auto F = simulation.gradients();
-  for (std::size_t i = 0; i < scene.elastic_count; ++i) {
-    if (scene.region[i] >= 0) continue;
-    const auto J = static_cast<double>(hmps::determinant(F[i]));
-    d.mean += J, count += 1, within += std::abs(J - 1) <= 0.02;
-    d.min = std::min(d.min, J), d.max = std::max(d.max, J);
-  }
-  d.mean /= count;
-  d.share_within_0_98_1_02 = within / count;
-  return d;
+[[nodiscard]] hmps::JacobianStatistics volume(Simulation<S>& simulation, const Scene& scene) {
+  return hmps::jacobian_statistics(
+      simulation.body(simulation.gradients()), {.low = 0.98, .high = 1.02},
+      [&](std::size_t i) { return scene.region[i] < 0; }, simulation.executor());
 }
 
+/// What the series keeps of the present state; `penetration` in spacings is the largest since the
+/// sample before.
 template <class S>
-[[nodiscard]] Sample observe(Simulation<S>& simulation, const Scene& scene, const Materials& materials,
-                             double penetration) {
+[[nodiscard]] Sample observe(Simulation<S>& simulation, const Scene& scene, double penetration) {
   const auto& x = simulation.position_array();
   const auto base = mean_position(x, scene.base), centre = mean_position(x, scene.centre),
              tip = mean_position(x, scene.tip);
+  const auto positions = simulation.body(simulation.positions());
+  const auto velocities = simulation.body(simulation.velocities());
+  const auto gradients = simulation.body(simulation.gradients());
+  const double particle_volume = std::pow(scene.spacing, 3);
+  const auto& execute = simulation.executor();
+  const auto J = volume(simulation, scene);
   Sample sample;
   sample.time = simulation.time();
   sample.tip_angle = angle_above_horizontal(centre, tip);
   sample.base_angle = angle_above_horizontal(base, tip);
-  const DetF J = volume(simulation, scene);
+  sample.kinetic_energy = hmps::kinetic_energy(velocities, simulation.materials().density, particle_volume, execute);
+  sample.strain_energy = hmps::strain_energy(gradients, simulation.tissue(), particle_volume, execute);
+  sample.artificial_energy = hmps::artificial_energy(simulation.bonds(), positions, gradients, simulation.stabiliser(),
+                                                     particle_volume, execute);
   sample.smallest_j = J.min, sample.largest_j = J.max, sample.mean_j = J.mean;
-  const auto v = simulation.velocities();
-  double squared = 0;
-  for (std::size_t i = 0; i < scene.elastic_count; ++i) {
-    const double s = v[i].template cast<double>().squaredNorm();
-    squared += s;
-    sample.largest_speed = std::max(sample.largest_speed, std::sqrt(s));
-  }
-  sample.kinetic_energy = 0.5 * materials.density * std::pow(scene.spacing, 3) * squared;
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    sample.largest_speed = std::max(sample.largest_speed, velocities[i].template cast<double>().norm());
   sample.contacts = static_cast<double>(simulation.contact_report().contacts);
   sample.penetration = penetration;
   return sample;
 }
 
-/// Stops the run where it no longer means anything.
+/// Throws `hmps::StateError`, naming the particle and its organ, once the state no longer means anything.
 template <class S>
-void check(Simulation<S>& simulation, const Scene& scene, const Materials&) {
-  const auto F = simulation.gradients();
-  for (std::size_t i = 0; i < scene.elastic_count; ++i) {
-    const auto J = static_cast<double>(hmps::determinant(F[i]));
-    if (!(J > 0))
-      throw hmps::StateError(hmps::message("at ", simulation.time(), " s particle ", i, " of the ",
-                                           name(scene.organ[i]), " has det F = ", J));
-  }
+void check(Simulation<S>& simulation, const Scene& scene) {
+  hmps::check_state(simulation.positions(), simulation.velocities(), simulation.gradients(),
+                    {.time = simulation.time(),
+                     .speed_limit = simulation.materials().speed_limit,
+                     .organ_name = [&](std::size_t i) { return "the " + std::string(name(scene.organ[i])); }},
+                    simulation.executor());
 }
 
 template <class S>

@@ -116,8 +116,7 @@ class Run {
         const double time = simulation_.time();
         if (simulation_.steps() > 0 || !before) {
           if (sample.due(time)) {
-            const Sample now =
-                observe(simulation_, scene_, materials_, std::exchange(penetration_, 0) / scene_.spacing);
+            const Sample now = observe(simulation_, scene_, std::exchange(penetration_, 0) / scene_.spacing);
             smallest_j = now.smallest_j;
             series.add(now);
             measure(now);
@@ -129,7 +128,7 @@ class Run {
         if (time >= options_.until - dt / 2) break;
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
-        if (simulation_.steps() % 16 == 0) check(simulation_, scene_, materials_);
+        if (simulation_.steps() % 16 == 0) check(simulation_, scene_);
         progress.update(simulation_.time(), simulation_.steps() - first_step, smallest_j);
       }
       checkpoint();
@@ -141,7 +140,7 @@ class Run {
     progress.finish(simulation_.time(), steps, smallest_j);
     summary_.wall_seconds = wall_before_ + seconds;
     contact_seconds_ += simulation_.contact_seconds();
-    finish(series);
+    finish();
     draw_sheet(folder_ / "sheet.png", snapshots, title());
     return summary_;
   }
@@ -159,8 +158,10 @@ class Run {
     fold_.add(now.time, now.tip_angle);
     fold_base_.add(now.time, now.base_angle);
     summary_.max_penetration = std::max(summary_.max_penetration, now.penetration);
-    if (!summary_.det_f && now.time >= volume_time - 1e-9 && std::abs(now.time - simulation_.time()) < 1e-9)
-      summary_.det_f = volume(simulation_, scene_);
+    if (!summary_.det_f && now.time >= volume_time - 1e-9 && std::abs(now.time - simulation_.time()) < 1e-9) {
+      const auto J = volume(simulation_, scene_);
+      summary_.det_f = DetF{J.mean, J.share_within, J.min, J.max};
+    }
   }
   void snap(const Snapshots& snapshots, double time) {
     for (std::size_t panel = 0; panel < picture_times.size(); ++panel)
@@ -171,7 +172,7 @@ class Run {
     return hmps::message("Case ", chosen_.name, ": model ", chosen_.model == Model::X ? "X" : "Y", ", friction ",
                          friction_, ", spacing ", 1e3 * options_.spacing, " mm");
   }
-  void finish(const Series& series) {
+  void finish() {
     summary_.time = simulation_.time();
     summary_.steps = simulation_.steps();
     summary_.fold_time = fold_.time();
@@ -180,7 +181,6 @@ class Run {
     summary_.particle_steps_per_second =
         static_cast<double>(summary_.steps * scene_.reference.size()) / std::max(summary_.wall_seconds, 1e-9);
     summary_.contact_share = contact_seconds_ / std::max(summary_.wall_seconds, 1e-9);
-    (void)series;
     write_summary(folder_ / "summary.json", summary_);
   }
 

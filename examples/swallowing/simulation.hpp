@@ -31,9 +31,9 @@ class Simulation {
  public:
   struct Settings {
     double friction = 0.1;
-    double time_step = 0;      ///< s; 0: the largest that is stable with the penalty of the materials
-    double penalty = 0;        ///< k in N/m4; 0: from the ratio and the step by \paper{25}
-    double penalty_ratio = 0;  ///< k~ of \paper{25}; 0: that of the materials
+    double time_step = 0;      ///< s; 0: a share of the largest that is stable at rest
+    double penalty = 0;        ///< k in N/m4; 0: from the ratio, or from the materials
+    double penalty_ratio = 0;  ///< k~ of \paper{25}; 0: not asked for
     int threads = 1;
   };
 
@@ -53,8 +53,7 @@ class Simulation {
                                     hmps::viscous(materials.density, materials.kinematic_viscosity))),
         step_limit_(limit()),
         time_step_(settings.time_step > 0 ? settings.time_step : chosen_step(settings)),
-        penalty_(settings.penalty > 0 ? settings.penalty
-                                      : ratio(settings) * materials.density / (time_step_ * time_step_)),
+        penalty_(chosen_penalty(settings)),
         contact_({.spacing = scene.spacing,
                   .density = materials.density,
                   .friction = settings.friction,
@@ -105,6 +104,28 @@ class Simulation {
   }
   [[nodiscard]] const hmps::LatticeBonds<S, 3>& bonds() const { return bonds_; }
   [[nodiscard]] const hmps::OpenMP& executor() const { return execute_; }
+  [[nodiscard]] const Materials& materials() const { return materials_; }
+
+  /// The law of each particle: C1 = C2 from its Young's modulus by \paper{18}.
+  struct Tissue {
+    const Simulation* simulation;
+    template <class At>
+    [[nodiscard]] auto operator()(const At& at) const {
+      const auto young = at(simulation->modulus());
+      using T = std::remove_const_t<decltype(young)>;
+      return hmps::MooneyRivlin<T>::from_young(young, T(simulation->materials_.d1));
+    }
+  };
+  /// E_hat of each particle.
+  struct Stabiliser {
+    const Simulation* simulation;
+    template <class At>
+    [[nodiscard]] auto operator()(const At& at) const {
+      return at(simulation->modulus()) * S(simulation->materials_.stabiliser_ratio);
+    }
+  };
+  [[nodiscard]] Tissue tissue() const { return {this}; }
+  [[nodiscard]] Stabiliser stabiliser() const { return {this}; }
 
   /// The state that the next step starts from: with it a run goes on to the same bits.
   [[nodiscard]] std::vector<Eigen::Vector3d>& position_array() { return x_; }
@@ -115,24 +136,8 @@ class Simulation {
   }
 
  private:
-  /// The law of each particle: C1 = C2 from its Young's modulus by \paper{18}.
-  struct Tissue {
-    const Simulation* simulation;
-    template <class At>
-    [[nodiscard]] auto operator()(const At& at) const {
-      const auto young = at(simulation->body(hmps::scalars(simulation->modulus_)));
-      using T = std::remove_const_t<decltype(young)>;
-      return hmps::MooneyRivlin<T>::from_young(young, T(simulation->materials_.d1));
-    }
-  };
-  /// E_hat of each particle.
-  struct Stabiliser {
-    const Simulation* simulation;
-    template <class At>
-    [[nodiscard]] auto operator()(const At& at) const {
-      return at(simulation->body(hmps::scalars(simulation->modulus_))) * S(simulation->materials_.stabiliser_ratio);
-    }
-  };
+  /// Young's modulus (Pa) of each particle of the body.
+  [[nodiscard]] auto modulus() const { return body(hmps::scalars(modulus_)); }
 
   template <int N>
   [[nodiscard]] hmps::View<S, N> structure_of_arrays(std::vector<S>& values) const {
@@ -157,13 +162,15 @@ class Simulation {
                              {.spacing = scene_->spacing, .moves = [moves](std::size_t i) { return moves[i] != 0; }},
                              execute_);
   }
-  [[nodiscard]] double ratio(const Settings& settings) const {
-    return settings.penalty_ratio > 0 ? settings.penalty_ratio : materials_.penalty_ratio;
-  }
   /// A whole number of steps in a millisecond, so that samples and pictures fall on steps.
   [[nodiscard]] double chosen_step(const Settings& settings) const {
-    const double stable = step_limit_.step * materials_.step_share * std::sqrt(1 - ratio(settings));
+    const double stable = materials_.step_share * step_limit_.step * std::sqrt(1 - settings.penalty_ratio);
     return 1e-3 / std::ceil(1e-3 / stable);
+  }
+  [[nodiscard]] double chosen_penalty(const Settings& settings) const {
+    if (settings.penalty > 0) return settings.penalty;
+    if (settings.penalty_ratio > 0) return settings.penalty_ratio * materials_.density / (time_step_ * time_step_);
+    return materials_.contact_stiffness / scene_->spacing;
   }
 
   void add_contacts() {
