@@ -24,7 +24,8 @@ struct StateError : Error {
   using Error::Error;
 };
 
-/// Joins its arguments into one message; numbers are written with the digits of a double.
+/// Joins its arguments into one message; numbers are written with nine digits, which
+/// tell any two floats apart.
 template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
   std::ostringstream text;

@@ -19,7 +19,9 @@ struct AnyBody {
 /// all calls have returned. Satisfied by `Serial`, `OpenMP` and `OneTBB`, or by a user's lambda.
 /// Loop bodies of the library never write to the same place, so results do not depend on it.
 template <class E>
-concept Executor = requires(const E& execute, std::size_t n, detail::AnyBody body) { execute(n, body); };
+concept Executor = requires(const E& execute, std::size_t n, detail::AnyBody body) {
+  execute(n, body);
+};
 
 /// Runs every loop in order on the calling thread.
 struct Serial {
@@ -33,6 +35,7 @@ struct Serial {
 /// length and are combined in order, so the bits do not depend on the executor.
 template <class T, class Term, class Combine, Executor E = Serial>
 [[nodiscard]] T reduce(std::size_t n, T start, Term&& term, Combine&& combine, const E& execute = {}) {
+  static_assert(!std::same_as<T, bool>, "hmps: reduce to int, not bool: the chunks are written at the same time");
   constexpr std::size_t chunk = 1024;
   const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<T> partial(chunks, start);

@@ -220,9 +220,14 @@ template <class T>
   return each(a, [](T x) { return std::exp(x); });
 }
 template <class T>
-[[nodiscard]] inline Lanes<T> pow(const Lanes<T>& a, T exponent) {
-  return each(a, [exponent](T x) { return std::pow(x, exponent); });
+[[nodiscard]] inline Lanes<T> pow(const Lanes<T>& a, const Lanes<T>& exponent) {
+  Lanes<T> result;
+  for (int l = 0; l < Lanes<T>::width; ++l) result.lane[l] = std::pow(a.lane[l], exponent.lane[l]);
+  return result;
 }
+template <class T, class U>
+requires std::is_arithmetic_v<U>
+[[nodiscard]] inline Lanes<T> pow(const Lanes<T>& a, U exponent) { return pow(a, Lanes<T>(exponent)); }
 
 /// x^(-1/3), the only root that the reduced invariants need (\paper{16, 17}): NaN for x <= 0.
 /// A guess from the bits of the number, then Newton's iteration, correct to about two units in the

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <cstdint>
 
 /// Particle mechanics for soft tissue by the Hamiltonian MPS method. SI units everywhere.

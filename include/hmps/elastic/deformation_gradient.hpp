@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/force/terms.hpp"
 
 namespace hmps {

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "hmps/core/lanes.hpp"
-#include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/neighbours/blocks.hpp"

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 #include "hmps/core/lanes.hpp"
@@ -83,7 +81,8 @@ class Blocks {
   /// tr A = sum |r0|^2 w of `particle`, in m2, the sum in \paper{20}.
   [[nodiscard]] K shape_trace(std::size_t particle) const { return K(1) / inverse_trace_[0][slot_of_[particle]]; }
 
-  /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}).
+  /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}): of the
+  /// full lattice in `LatticeBonds`, of the particle with the largest sum of weights in `BondList`.
   [[nodiscard]] double standard_density() const { return standard_density_; }
   [[nodiscard]] double standard_lambda() const { return standard_lambda_; }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "hmps/neighbours/blocks.hpp"
@@ -96,7 +97,9 @@ template <class T, int D>
 
 /// The bonds of particles on a simple cubic lattice in their reference configuration. All particles
 /// share the offsets r0 and weights w0 (\paper{8}); a block of particles keeps, for each offset, the
-/// runs of neighbours that follow each other, eight bytes each. Satisfies the `Bonds` concept.
+/// runs of neighbours that follow each other, eight bytes each. A particle may lie off its place by
+/// the rounding of the user's scalar, up to a thousandth of the spacing; r0 is that of the lattice.
+/// Satisfies the `Bonds` concept.
 template <class K, int D>
 class LatticeBonds : public Blocks<K, D> {
   using Base = Blocks<K, D>;
@@ -131,7 +134,7 @@ class LatticeBonds : public Blocks<K, D> {
     return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::size_t);
   }
 
-  /// One bond of some lanes of a block, as the sweeps see it: the neighbours of lane l is slot
+  /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot
   /// `first + l`.
   struct Row {
     const K* r0;

@@ -10,7 +10,8 @@ namespace hmps {
 
 /// The viscous force of the standard MPS method, \paper{21}: rho nu times the MPS model of the
 /// Laplacian of the velocity. n^0 and lambda, which the paper leaves to its references, are those of
-/// a particle inside the body, n^0 = sum w and lambda = sum |r0|^2 w / sum w.
+/// a particle inside the body, n^0 = sum w and lambda = sum |r0|^2 w / sum w
+/// (`Blocks::standard_density` and `standard_lambda`).
 ///
 /// It damps relative motion; at free surfaces, where the neighbourhood is not symmetric, it also
 /// damps a rigid spin.

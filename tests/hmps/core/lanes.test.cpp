@@ -96,7 +96,8 @@ TYPED_TEST(LanesOf, HaveTheFunctionsThatLawsCall) {
     EXPECT_EQ(sqrt(a).lane[l], std::sqrt(x));
     EXPECT_EQ(log(a).lane[l], std::log(x));
     EXPECT_EQ(exp(a).lane[l], std::exp(x));
-    EXPECT_EQ(pow(a, T(0.3)).lane[l], std::pow(x, T(0.3)));
+    EXPECT_EQ(pow(a, 0.3).lane[l], std::pow(x, T(0.3)));
+    EXPECT_EQ(pow(a, L(-2.0 / 3.0)).lane[l], std::pow(x, T(-2.0 / 3.0)));
     EXPECT_EQ(abs(signs).lane[l], std::abs(signs.lane[l]));
     EXPECT_EQ(min(a, signs).lane[l], std::min(x, signs.lane[l]));
     EXPECT_EQ(max(a, signs).lane[l], std::max(x, signs.lane[l]));
