@@ -16,7 +16,8 @@ struct Yeoh {
     const T root = hmps::inverse_cube_root(J), I1 = root * root * hmps::trace(C);
     const T slope = T(2 * c10) + T(4 * c20) * (I1 - T(3));  // 2 dW/dI1
     const T spherical = T(2 * d) * (J - T(1)) * J - slope * I1 / T(3);
-    hmps::Matrix<T, D> S = hmps::inverse(C) * spherical;
+    hmps::Matrix<T, D> S = hmps::inverse(C);
+    for (int k = 0; k < D * D; ++k) S(k % D, k / D) *= spherical;
     for (int k = 0; k < D; ++k) S(k, k) += slope * root * root;
     return S;
   }
