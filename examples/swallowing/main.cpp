@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "../common/files.hpp"
 #include "comparison.hpp"
 #include "options.hpp"
 #include "run_case.hpp"
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   if (!options) return exit_code;
   try {
     const std::filesystem::path out(options->out);
+    examples::prepare_folder(out);
     for (const auto& name : options->cases) {
       const Summary summary = run_case(*options, find_case(name));
       std::cout << name << ": "

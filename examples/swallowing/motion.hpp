@@ -117,7 +117,7 @@ class Motion {
   [[nodiscard]] hmps::Vector<double, 3> larynx(double t) const { return displacement(larynx_, t); }
 
  private:
-  static constexpr double hinge_x = 15.7;  ///< mm, calibrated
+  static constexpr double hinge_x = 12.8;  ///< mm, calibrated
   static constexpr double hinge_y = 4;     ///< mm
 
   struct Moved {

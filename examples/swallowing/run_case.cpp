@@ -9,9 +9,11 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "../common/files.hpp"
 #include "build_scene.hpp"
 #include "checkpoint.hpp"
 #include "frames.hpp"
@@ -44,17 +46,33 @@ class Every {
   std::uint64_t next_ = 0;
 };
 
+/// A number that changes with the text (FNV-1a).
+std::uint64_t digest(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
 /// All that the bits of a run depend on, as text.
-RunSettings fingerprint(const Options& options, const Case& chosen, double friction, double time_step, double penalty) {
+RunSettings fingerprint(const Options& options, const Case& chosen, const std::filesystem::path& data, double friction,
+                        double time_step, double penalty) {
   const auto text = [](double value) { return hmps::message(std::hexfloat, value); };
-  return {{"case", std::string(chosen.name)},
-          {"scalar", options.single_precision ? "float" : "double"},
-          {"spacing", text(options.spacing)},
-          {"lattice shift", text(options.lattice_shift)},
-          {"region H", options.constrictors ? "yes" : "no"},
-          {"friction", text(friction)},
-          {"time step", text(time_step)},
-          {"penalty", text(penalty)}};
+  RunSettings settings{{"case", std::string(chosen.name)},
+                       {"scalar", options.single_precision ? "float" : "double"},
+                       {"spacing", text(options.spacing)},
+                       {"lattice shift", text(options.lattice_shift)},
+                       {"region H", options.constrictors ? "yes" : "no"},
+                       {"friction", text(friction)},
+                       {"time step", text(time_step)},
+                       {"penalty", text(penalty)}};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files)
+    if (file.extension() == ".csv")
+      settings.emplace_back("content of " + file.filename().string(),
+                            std::to_string(digest(examples::read_file(file))));
+  return settings;
 }
 
 template <class S>
@@ -78,8 +96,8 @@ class Run {
                      .penalty = options.penalty.value_or(0),
                      .penalty_ratio = options.penalty_ratio.value_or(0),
                      .threads = options.threads}),
-        settings_(fingerprint(options, chosen, friction_, simulation_.time_step(), simulation_.penalty())) {
-    std::filesystem::create_directories(folder_);
+        settings_(fingerprint(options, chosen, data_, friction_, simulation_.time_step(), simulation_.penalty())) {
+    examples::prepare_folder(folder_);
     summary_.case_name = chosen.name;
     summary_.scalar = options.single_precision ? "float" : "double";
     summary_.threads = options.threads;
@@ -99,7 +117,7 @@ class Run {
     std::optional<Frames> frames;
     if (options_.frames) frames.emplace(folder_, before);
 
-    const auto start = std::chrono::steady_clock::now();
+    start_ = std::chrono::steady_clock::now();
     const auto first_step = simulation_.steps();
     const double dt = simulation_.time_step();
     Every sample(sample_interval, dt), frame(options_.frame_interval, dt), keep(checkpoint_interval, dt);
@@ -114,17 +132,15 @@ class Run {
     try {
       for (;;) {
         const double time = simulation_.time();
-        if (simulation_.steps() > 0 || !before) {
-          if (sample.due(time)) {
-            const Sample now = observe(simulation_, scene_, std::exchange(penetration_, 0) / scene_.spacing);
-            smallest_j = now.smallest_j;
-            series.add(now);
-            measure(now);
-            snap(snapshots, time);
-          }
-          if (frames && frame.due(time)) add_frame(*frames, simulation_, scene_);
-          if (keep.due(time) && simulation_.steps() > first_step) checkpoint();
+        if (sample.due(time)) {
+          const Sample now = observe(simulation_, scene_, std::exchange(penetration_, 0) / scene_.spacing);
+          smallest_j = now.smallest_j;
+          series.add(now);
+          measure(now);
+          snap(snapshots, time);
         }
+        if (frames && frame.due(time)) add_frame(*frames, simulation_, scene_);
+        if (keep.due(time) && simulation_.steps() > first_step) checkpoint();
         if (time >= options_.until - dt / 2) break;
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
@@ -135,10 +151,9 @@ class Run {
     } catch (const hmps::StateError& error) {
       summary_.failure = error.what();
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const auto steps = simulation_.steps() - first_step;
     progress.finish(simulation_.time(), steps, smallest_j);
-    summary_.wall_seconds = wall_before_ + seconds;
+    summary_.wall_seconds = seconds();
     contact_seconds_ += simulation_.contact_seconds();
     finish();
     draw_sheet(folder_ / "sheet.png", snapshots, title());
@@ -146,6 +161,10 @@ class Run {
   }
 
  private:
+  /// Seconds of the wall clock that the case took, those before a resumption included.
+  [[nodiscard]] double seconds() const {
+    return wall_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
   void describe_step() const {
     const auto& limit = simulation_.step_limit();
     const auto organ = name(scene_.organ[limit.particle]);
@@ -193,10 +212,10 @@ class Run {
     state.set("positions", positions());
     state.set("velocities", simulation_.velocity_array());
     state.set("penetration", penetration_);
-    if (summary_.det_f)
-      state.set("det F", std::array{summary_.det_f->mean, summary_.det_f->share_within_0_98_1_02, summary_.det_f->min,
-                                    summary_.det_f->max});
-    state.set("seconds", std::array{summary_.wall_seconds, contact_seconds_});
+    std::vector<double> volume;
+    if (const auto& J = summary_.det_f) volume = {J->mean, J->share_within_0_98_1_02, J->min, J->max};
+    state.set("det F", volume);
+    state.set("seconds", std::array{seconds(), contact_seconds_ + simulation_.contact_seconds()});
     state.save(checkpoint_file());
   }
   std::optional<double> resume() {
@@ -211,6 +230,7 @@ class Run {
     penetration_ = state->value<double>("penetration");
     const auto seconds = state->get<double>("seconds");
     wall_before_ = seconds[0], contact_seconds_ = seconds[1];
+    if (const auto J = state->get<double>("det F"); J.size() == 4) summary_.det_f = DetF{J[0], J[1], J[2], J[3]};
     simulation_.resume(state->step);
     return state->time;
   }
@@ -232,6 +252,7 @@ class Run {
   Summary summary_;
   FoldTime fold_, fold_base_;
   double penetration_ = 0;  ///< m, largest since the last sample
+  std::chrono::steady_clock::time_point start_;
   double wall_before_ = 0, contact_seconds_ = 0;
 };
 

@@ -38,7 +38,8 @@ template <class T, class Term, class Combine, Executor E = Serial>
   static_assert(!std::same_as<T, bool>, "hmps: reduce to int, not bool: the chunks are written at the same time");
   constexpr std::size_t chunk = 1024;
   const std::size_t chunks = (n + chunk - 1) / chunk;
-  std::vector<T> partial(chunks, start);
+  std::vector<T> partial;  // assigned, since g++ 12 takes the filling constructor for a wrong free
+  partial.assign(chunks, start);
   execute(chunks, [&](std::size_t c) {
     const std::size_t end = std::min(n, (c + 1) * chunk);
     T sum = term(c * chunk);

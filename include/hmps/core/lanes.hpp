@@ -274,3 +274,9 @@ struct Eigen::NumTraits<hmps::Lanes<T>> : Eigen::GenericNumTraits<hmps::Lanes<T>
     MulCost = 1
   };
 };
+
+/// Arrays of lanes are aligned as lanes are; Eigen need not, and must not, ask for less.
+template <class T, int Size>
+struct Eigen::internal::compute_default_alignment<hmps::Lanes<T>, Size> {
+  enum { value = 0 };
+};
