@@ -38,9 +38,13 @@ struct ContactSettings {
 /// What one evaluation of the contact met.
 template <class S>
 struct ContactReport {
-  std::size_t contacts = 0;    ///< Slaves with p > 0, counted once per organ that they touch.
-  std::size_t sticking = 0;    ///< Of those, the ones whose friction is below its limit.
-  std::size_t deep = 0;        ///< Slaves so deep in a wall that Z^-1 or the normal says nothing any more.
+  std::size_t contacts = 0;  ///< Slaves with p > 0, counted once per organ that they touch.
+  std::size_t sticking = 0;  ///< Of those, the ones whose friction is below its limit.
+  /// Slaves so deep in a wall that Z^-1 or the normal says little any more: clamped, or without force
+  /// where there is no normal. A wall of two layers holds a slave down to half a spacing below the
+  /// centres of its outermost layer and pushes it out on the other side beyond. The bumps of
+  /// `PaperMetaball` hide part of it there; a third layer of masters shows them all.
+  std::size_t deep = 0;
   S penetration = 0;           ///< The largest p in m.
   Index deepest = 0;           ///< Its slave.
   std::size_t candidates = 0;  ///< Slave-master pairs on the lists.
@@ -63,7 +67,7 @@ struct ContactReport {
 /// reaction acts at the master's centre and not at the touching point (\paper{41, 42}).
 /// Results are the same to the bit for any executor, and do not depend on when lists were built.
 /// Slaves whose normal is undefined (deep inside) get no force and are counted as deep.
-template <class S, int D, Metaball Ball = PaperMetaball, FrictionLaw Friction = CorrectedFriction>
+template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
   using Lists = detail::Candidates<S, D, Ball>;

@@ -84,7 +84,9 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
     std::fill(weight + begin, weight + end, S(0));
     return false;
   }
-  deep = centres.deep;
+  deep = centres.deep ||
+         (centres.value < S(0) && S(2) * over_radius_squared * surface.gradient.norm() * surface.stretch(state.normal) <
+                                      lists_.normal_density.least_slope());
   state.slip = surface.relative_velocity(v[row.particle].template cast<S>());
   const S over_density = S(1) / surface.density;
   for (std::size_t k = begin; k < end; ++k) {

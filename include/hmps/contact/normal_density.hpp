@@ -75,6 +75,9 @@ class NormalDensity {
     return {spacing_ * y, true, false};
   }
 
+  /// A quarter of the steepest -dZ/dy in 1/m: where the sum falls less across a wall, a slave is deep in
+  /// it, also in a wall too thin for Z to saturate.
+  [[nodiscard]] S least_slope() const { return static_cast<S>(least_slope_) / spacing_; }
   /// l0 in m.
   [[nodiscard]] S spacing() const { return spacing_; }
   /// The least distance in m that the inverse can tell; negative: within the wall.
@@ -89,8 +92,8 @@ class NormalDensity {
     if (std::abs(h) >= radius) return 0;
     constexpr std::array<double, 4> x{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
     constexpr std::array<double, 4> w{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
-    // Four panels of eight-point Gauss quadrature: exact for the metaballs here.
-    constexpr int panels = 4;
+    // Two panels of eight-point Gauss quadrature: exact for polynomials up to degree 7 in (r / r_e)^2.
+    constexpr int panels = 2;
     const double reach = std::sqrt(radius * radius - h * h);
     double sum = 0;
     for (int p = 0; p < panels; ++p)
@@ -121,23 +124,28 @@ class NormalDensity {
       if (s > 0.25 * steepest && y < 0) break;
     }
     deepest_ = y;
+    least_slope_ = -0.25 * steepest;
   }
 
-  /// The y above `low` at which Z is `density`.
+  /// The y between `low` and the reach at which Z is `density`: secant steps from `low`, bisection
+  /// where they leave the bracket.
   [[nodiscard]] static double solve(double density, double low) {
-    double high = Ball::radius;
+    double high = Ball::radius, at_low = in_spacings(low) - density, at_high = -density, y = low;
     for (int i = 0; i < 60 && high - low > 1e-13; ++i) {
-      const double middle = 0.5 * (low + high);
-      (in_spacings(middle) > density ? low : high) = middle;
+      y = i % 3 == 2 ? 0.5 * (low + high) : low - at_low * (high - low) / (at_high - at_low);
+      const double value = in_spacings(y) - density;
+      if (std::abs(value) < 1e-14 * density) break;
+      (value > 0 ? low : high) = y;
+      (value > 0 ? at_low : at_high) = value;
     }
-    return 0.5 * (low + high);
+    return y;
   }
 
   struct Node {
     S value, slope;
   };
   S spacing_, top_ = 0, scale_ = 0;
-  double deepest_ = 0;
+  double deepest_ = 0, least_slope_ = 0;
   std::vector<Node> table_;
 };
 

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/contact/candidates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "bodies.hpp"
+#include "hmps/core/executor.hpp"
+
+namespace {
+
+using hmps::Index;
+using Lists = hmps::detail::Candidates<double, 3, hmps::SmoothMetaball>;
+using Pile = bodies::Pile<double, 3>;
+using Pairs = std::vector<std::pair<Index, Index>>;
+
+TEST(StretchBound, IsAboveTheLargestSingularValueAndSharpWhereItCounts) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    hmps::Matrix<double, 3> F;
+    for (int c = 0; c < 9; ++c) F(c % 3, c / 3) = u(random);
+    // Power iteration.
+    hmps::Vector<double, 3> q(1, 2, 3);
+    for (int k = 0; k < 200; ++k) q = (F.transpose() * (F * q)).normalized();
+    EXPECT_GE((hmps::detail::stretch_bound<double, 3>(F)), (F * q).norm() * (1 - 1e-12));
+  }
+  EXPECT_DOUBLE_EQ((hmps::detail::stretch_bound<double, 3>(2 * hmps::Matrix<double, 3>::Identity())), 2);
+  hmps::Matrix<double, 2> shear = hmps::Matrix<double, 2>::Identity();
+  shear(0, 1) = 1;
+  EXPECT_NEAR((hmps::detail::stretch_bound<double, 2>(shear)), (1 + std::sqrt(5.)) / 2, 1e-12);
+}
+
+template <class L>
+std::size_t declare(L& lists, const Pile& pile, const hmps::PairSettings& settings = {}) {
+  const auto a =
+      lists.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .prescribed = {}});
+  const auto b =
+      lists.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower, .prescribed = {}});
+  return lists.add_pair(a, b, settings);
+}
+
+template <class L>
+Pairs listed(const L& lists) {
+  Pairs pairs;
+  for (std::size_t r = 0; r + 1 < lists.rows.size(); ++r)
+    for (Index k = lists.rows[r].begin; k < lists.rows[r + 1].begin; ++k)
+      pairs.emplace_back(lists.rows[r].particle, lists.slot_particle[lists.slot_of[k]]);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// The pairs with c > 0 of the slaves that touch: what no list may miss.
+Pairs touching(const Pile& pile) {
+  const hmps::NormalDensity<double, 3, hmps::SmoothMetaball> Z(pile.l0);
+  Pairs pairs;
+  const auto side = [&](const std::vector<Index>& slaves, const std::vector<Index>& masters) {
+    for (const Index i : slaves) {
+      double C = 0;
+      Pairs mine;
+      for (const Index j : masters) {
+        const double s =
+            (hmps::inverse<double, 3>(pile.F[j]) * (pile.x[j] - pile.x[i])).squaredNorm() / std::pow(2.5 * pile.l0, 2);
+        if (s >= 1) continue;
+        C += hmps::SmoothMetaball::value(s);
+        mine.emplace_back(i, j);
+      }
+      // A touch needs R < l0 for particles that hardly deform.
+      if (Z.inverse(C).reached && Z.inverse(C).value < 0.95 * pile.l0)
+        pairs.insert(pairs.end(), mine.begin(), mine.end());
+    }
+  };
+  side(pile.plate.top, pile.block.lower);
+  side(pile.block.bottom, pile.plate.upper);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+TEST(Candidates, NeverMissATouchWhileBodiesMove) {
+  Pile pile(3.5);
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  pile.shake(0, 0.03, 1);
+  const double dt = 1e-5;
+  std::size_t met = 0, slept = 0;
+  const hmps::Serial serial;
+  for (int step = 0; step < 4000; ++step) {
+    // Down, along and up again, at up to 0.5 m/s, with particles shaking on top.
+    const hmps::Vector<double, 3> drive(0.2, 0.1, -0.5 * std::sin(2 * 3.14159265 * step / 4000));
+    for (const Index i : pile.block.all) pile.v[i] = drive + 0.1 * std::sin(0.05 * step + i) * drive;
+    for (std::size_t i = 0; i < pile.x.size(); ++i) pile.x[i] += pile.v[i] * dt;
+    const bool chosen = lists.update(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), dt, serial);
+    for (std::size_t l = 0; l < lists.slot_member.size(); ++l)
+      if (lists.strayed(l, pile.x[lists.slot_particle[l]]))
+        lists.check(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), dt, serial);
+    if (step % 20 != 0) continue;
+    const Pairs have = listed(lists), need = touching(pile);
+    ASSERT_TRUE(std::includes(have.begin(), have.end(), need.begin(), need.end())) << "step " << step;
+    met += need.size();
+    slept += !chosen;
+  }
+  EXPECT_GT(met, 10000U) << "the bodies were meant to meet";
+  EXPECT_GT(slept, 50U) << "most steps are meant to reuse the lists";
+  EXPECT_EQ(lists.late, 0U);
+  EXPECT_LT(lists.checks, 800U);
+  EXPECT_LT(lists.rebuilds, 100U);
+}
+
+TEST(Candidates, AreOrderedAndTransposedConsistently) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  lists.update(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), 1e-5, hmps::Serial{});
+  ASSERT_GT(lists.rows.size(), 10U);
+  for (std::size_t r = 0; r + 1 < lists.rows.size(); ++r)
+    for (Index k = lists.rows[r].begin + 1; k < lists.rows[r + 1].begin; ++k)
+      EXPECT_LT(lists.slot_particle[lists.slot_of[k - 1]], lists.slot_particle[lists.slot_of[k]]);
+  std::size_t entries = 0;
+  for (std::size_t l = 0; l < lists.slot_particle.size(); ++l)
+    for (Index e = lists.slot_begin[l]; e < lists.slot_begin[l + 1]; ++e, ++entries) {
+      const auto& entry = lists.slot_entries[e];
+      EXPECT_EQ(lists.slot_of[entry.candidate], l);
+      EXPECT_GE(entry.candidate, lists.rows[entry.row].begin);
+      EXPECT_LT(entry.candidate, lists.rows[entry.row + 1].begin);
+    }
+  EXPECT_EQ(entries, lists.slot_of.size());
+  EXPECT_EQ(lists.touched.back().rows, lists.rows.size() - 1);
+  EXPECT_EQ(lists.touched.back().slots, lists.slot_particle.size());
+}
+
+TEST(Candidates, FollowTheStretchOfTheMaster) {
+  Pile pile(2.2);
+  bodies::Scene<double, 3>::Tensor tall = bodies::Scene<double, 3>::Tensor::Identity();
+  tall(2, 2) = 2.5;
+  Lists plain(1e-3, 0.1e-3), stretched(1e-3, 0.1e-3);
+  declare(plain, pile);
+  declare(stretched, pile);
+  const hmps::Serial serial;
+  plain.update(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), 1e-5, serial);
+  EXPECT_TRUE(listed(plain).empty());
+  for (const Index i : pile.plate.upper) pile.F[i] = tall;
+  stretched.update(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), 1e-5, serial);
+  EXPECT_FALSE(listed(stretched).empty());
+  // The same when the stretch comes later.
+  plain.check(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), 1e-5, serial);
+  EXPECT_EQ(listed(plain), listed(stretched));
+}
+
+TEST(Candidates, LeaveOutWhatIsExcluded) {
+  Pile pile(0.8);
+  const Index slave = pile.block.bottom[5];
+  const std::vector<Index> out{slave};
+  Lists by_slave(1e-3, 0.5e-3), by_pair(1e-3, 0.5e-3), one_way(1e-3, 0.5e-3);
+  declare(by_slave, pile, {.roles = hmps::Roles::both, .excluded_slaves = out, .excluded = {}});
+  declare(by_pair, pile,
+          {.roles = hmps::Roles::both, .excluded_slaves = {}, .excluded = [&](Index, Index j) { return j == slave; }});
+  declare(one_way, pile, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}});
+  for (Lists* lists : {&by_slave, &by_pair, &one_way})
+    lists->update(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), 1e-5, hmps::Serial{});
+  for (const auto& [i, j] : listed(by_slave)) EXPECT_NE(i, slave);
+  bool is_slave = false;
+  for (const auto& [i, j] : listed(by_pair)) {
+    EXPECT_NE(j, slave);
+    is_slave = is_slave || i == slave;
+  }
+  EXPECT_TRUE(is_slave);
+  EXPECT_FALSE(listed(one_way).empty());
+  for (const auto& [i, j] : listed(one_way)) EXPECT_GE(i, pile.plate.all.size());
+}
+
+TEST(Candidates, ReportWhatIsNotFinite) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  const hmps::Serial serial;
+  pile.x[pile.block.bottom[3]][1] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    lists.update(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), 1e-5, serial);
+    FAIL() << "a NaN went unseen";
+  } catch (const hmps::StateError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(std::to_string(pile.block.bottom[3])), std::string::npos) << text;
+    EXPECT_NE(text.find("block"), std::string::npos) << text;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/contact/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bodies.hpp"
+
+namespace {
+
+using hmps::CorrectedFriction;
+using hmps::Index;
+using hmps::MetaballContact;
+using hmps::PaperFriction;
+using hmps::PaperMetaball;
+using hmps::SmoothMetaball;
+
+template <class S_, int D_, class Ball_>
+struct Case {
+  using S = S_;
+  using Ball = Ball_;
+  static constexpr int D = D_;
+};
+template <class C>
+class ContactTest : public ::testing::Test {};
+using Cases = ::testing::Types<Case<double, 3, SmoothMetaball>, Case<double, 2, PaperMetaball>,
+                               Case<float, 3, PaperMetaball>, Case<float, 2, SmoothMetaball>>;
+TYPED_TEST_SUITE(ContactTest, Cases);
+
+const hmps::ContactSettings with_friction{.spacing = 1e-3, .density = 1000, .friction = 0.3};
+constexpr double dt = 1e-5;
+
+TYPED_TEST(ContactTest, PushesTheBodiesApartAndSumsToZero) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  bodies::Pile<S, D> pile(0.9);
+  pile.shake(S(0.05), S(0.03), 2);
+  MetaballContact<S, D, typename TypeParam::Ball> contact(with_friction);
+  const auto pair = pile.declare(contact);
+  const auto report = pile.apply(contact, dt);
+  EXPECT_GT(report.contacts, 2U);
+  EXPECT_EQ(report.deep, 0U);
+  EXPECT_GT(report.penetration, S(0.02e-3));
+  EXPECT_LT(report.penetration, S(0.3e-3));
+  EXPECT_LE(pile.total().norm(), S(20) * std::numeric_limits<S>::epsilon() * pile.magnitude());
+  S up = 0;
+  for (const Index i : pile.block.all) up += pile.f[i][D - 1];
+  EXPECT_GT(up, S(0));
+  const double volume = std::pow(1e-3, D);
+  EXPECT_NEAR(contact.force_on_first(pair)[D - 1], -up * volume, 1e-4 * up * volume);
+  // Reactions act at the masters' centres, so the torque need not vanish; how much of it is left is
+  // recorded: its arm, in spacings.
+  if constexpr (D == 3) {
+    Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < pile.x.size(); ++i)
+      torque += pile.x[i].template cast<double>().cross(pile.f[i].template cast<double>());
+    this->RecordProperty("torque_arm_in_spacings", std::to_string(torque.norm() / pile.magnitude() / 1e-3));
+    EXPECT_LT(torque.norm() / pile.magnitude(), 1e-3);
+  }
+}
+
+TYPED_TEST(ContactTest, AddsToTheForcesThatAreThere) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  bodies::Pile<S, D> pile(0.9);
+  MetaballContact<S, D, typename TypeParam::Ball> contact(with_friction);
+  pile.declare(contact);
+  pile.apply(contact, dt);
+  const auto once = pile.f;
+  for (auto& f : pile.f) f.setConstant(S(1e6));
+  contact(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), dt, hmps::vectors(pile.f),
+          bodies::Loops{});
+  const S biggest = pile.magnitude();
+  for (std::size_t i = 0; i < once.size(); ++i)
+    EXPECT_LE((pile.f[i] - once[i] - bodies::Scene<S, D>::Point::Constant(S(1e6))).norm(),
+              S(4) * std::numeric_limits<S>::epsilon() * biggest);
+}
+
+TYPED_TEST(ContactTest, DoesNotCareWhichBodyComesFirst) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  bodies::Pile<S, D> pile(0.9);
+  pile.shake(S(0.05), S(0.03), 3);
+  MetaballContact<S, D, typename TypeParam::Ball> one(with_friction), other(with_friction);
+  pile.declare(one);
+  const auto b =
+      other.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower, .prescribed = {}});
+  const auto a =
+      other.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .prescribed = {}});
+  other.add_pair(b, a);
+  pile.apply(one, dt);
+  const auto first = pile.f;
+  pile.apply(other, dt);
+  const S biggest = pile.magnitude();
+  for (std::size_t i = 0; i < first.size(); ++i)
+    EXPECT_LE((first[i] - pile.f[i]).norm(), S(10) * std::numeric_limits<S>::epsilon() * biggest);
+}
+
+TYPED_TEST(ContactTest, HasTheSameBitsInAnyOrderAndHoweverOldTheLists) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  bodies::Pile<S, D> pile(1.3);
+  pile.shake(S(0.05), S(0.03), 4);
+  MetaballContact<S, D, typename TypeParam::Ball> serial(with_friction), reversed(with_friction), fresh(with_friction);
+  for (auto* contact : {&serial, &reversed, &fresh}) pile.declare(*contact);
+  std::size_t contacts = 0;
+  for (int step = 0; step < 100; ++step) {
+    for (const Index i : pile.block.all) pile.x[i][D - 1] -= S(6e-6);
+    const auto report = pile.apply(serial, dt);
+    contacts += report.contacts;
+    EXPECT_EQ(report.late, 0U);
+    const auto bits = pile.f;
+    pile.apply(reversed, dt, bodies::Loops{.backwards = true});
+    ASSERT_EQ(bits, pile.f) << "reversed, step " << step;
+    fresh.refresh();
+    pile.apply(fresh, dt);
+    ASSERT_EQ(bits, pile.f) << "fresh lists, step " << step;
+  }
+  EXPECT_GT(contacts, 100U);
+}
+
+TYPED_TEST(ContactTest, FarBodiesCostNothingAndChangeNothing) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  bodies::Pile<S, D> pile(20);
+  MetaballContact<S, D, typename TypeParam::Ball> contact(with_friction);
+  pile.declare(contact);
+  std::size_t loops = 0;
+  for (int step = 0; step < 50; ++step) {
+    const auto report = pile.apply(contact, dt, {.count = &loops});
+    EXPECT_EQ(report.contacts, 0U);
+    EXPECT_EQ(report.candidates, 0U);
+    EXPECT_EQ(report.rebuilds, 1U);
+  }
+  // The first call looks at the bodies; the others do a single loop, over no masters at all.
+  EXPECT_LE(loops, 50U + 5U);
+  EXPECT_EQ(pile.magnitude(), S(0));
+}
+
+/// The relative slip of two sheets of free particles, 0.02 m/s before, after one step of sticking: at
+/// the middle, where the sheets know no edge.
+template <class Friction>
+double slip_after_one_step(int layers) {
+  bodies::Scene<double, 3> scene;
+  const hmps::Vector<int, 3> counts(13, 13, layers);
+  const double l0 = 1e-3, l = l0 * layers;
+  const auto below = scene.add(counts, {0, 0, 0}, l0);
+  const auto above = scene.add(counts, {0, 0, l - 0.1 * l0}, l0);
+  for (const Index i : above.all) scene.v[i][0] = 0.02;
+  MetaballContact<double, 3, PaperMetaball, Friction> contact({.spacing = l0, .density = 1000, .friction = 100});
+  const auto a = contact.add_organ({.name = "below", .slaves = below.top, .masters = below.upper, .prescribed = {}});
+  const auto b = contact.add_organ({.name = "above", .slaves = above.bottom, .masters = above.lower, .prescribed = {}});
+  contact.add_pair(a, b);
+  const auto report = scene.apply(contact, dt);
+  EXPECT_EQ(report.sticking, report.contacts);
+  EXPECT_GE(report.contacts, 200U);
+  for (std::size_t i = 0; i < scene.x.size(); ++i) scene.v[i] += scene.f[i] * dt / 1000;
+  // The slave right in the middle and the wall that it sees.
+  const Index slave = above.bottom[6 * 13 + 6];
+  hmps::Vector<double, 3> sum = hmps::Vector<double, 3>::Zero();
+  double C = 0;
+  for (const Index j : below.upper) {
+    const double s = (scene.x[j] - scene.x[slave]).squaredNorm() / std::pow(1.75 * l0, 2);
+    if (s >= 1) continue;
+    sum += PaperMetaball::value(s) * scene.v[j];
+    C += PaperMetaball::value(s);
+  }
+  return (scene.v[slave] - sum / C)[0];
+}
+
+TEST(Stick, CorrectedFrictionStopsSheetsAndThePapersReversesThem) {
+  // All slaves of a single layer slide alike: exactly zero. With two layers the wall's inner layer is
+  // accelerated less, and a remainder of the right sign is left.
+  EXPECT_NEAR(slip_after_one_step<CorrectedFriction>(1), 0, 1e-12);
+  EXPECT_NEAR(slip_after_one_step<CorrectedFriction>(2), 0, 0.1 * 0.02);
+  EXPECT_NEAR(slip_after_one_step<PaperFriction>(1), -0.060, 1e-12);
+  EXPECT_LT(slip_after_one_step<PaperFriction>(2), -0.02);
+}
+
+TEST(Stick, StopsEverySlaveOnAPrescribedWallInOneStep) {
+  bodies::Pile<double, 3> pile(0.9);
+  for (const Index i : pile.block.all) pile.v[i][0] = 0.02;
+  const auto forces = [&](double mu) {
+    MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000, .friction = mu});
+    pile.declare(contact, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}}, true);
+    const auto report = pile.apply(contact, dt);
+    EXPECT_EQ(report.contacts, pile.block.bottom.size());
+    EXPECT_EQ(report.sticking, mu > 0 ? report.contacts : 0U);
+    return pile.f;
+  };
+  const auto with = forces(100), without = forces(0);
+  // Friction alone leaves the part of the velocity along the normal.
+  for (const Index i : pile.block.bottom) {
+    const hmps::Vector<double, 3> n = without[i].normalized(), left = pile.v[i] + (with[i] - without[i]) * dt / 1000;
+    EXPECT_LT((left - pile.v[i].dot(n) * n).norm(), 1e-12);
+  }
+}
+
+TEST(Friction, IsTheCoefficientTimesTheNormalForceWhereItSlides) {
+  bodies::Pile<double, 3> pile(0.9);
+  for (const Index i : pile.block.all) pile.v[i][0] = 5;
+  double drag[2];
+  for (const double mu : {0., 0.2}) {
+    MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000, .friction = mu});
+    pile.declare(contact);
+    const auto report = pile.apply(contact, dt);
+    EXPECT_EQ(report.sticking, 0U);
+    hmps::Vector<double, 3> on_block = hmps::Vector<double, 3>::Zero();
+    for (const Index i : pile.block.all) on_block += pile.f[i];
+    drag[mu > 0] = -on_block[0] / on_block[2];
+  }
+  // Frictionless drag is the tilt of the normals, 0.012 at most at this height on an endless wall; the
+  // block's own edges, seen by the plate's slaves, tilt theirs.
+  EXPECT_NEAR(drag[0], 0, 0.1);
+  EXPECT_NEAR(drag[1] - drag[0], 0.2, 0.02);
+}
+
+TEST(Damping, OpposesTheClosingSpeedAndIsOffByDefault) {
+  bodies::Pile<double, 3> pile(0.9);
+  const auto lift = [&](double damping, double speed) {
+    for (const Index i : pile.block.all) pile.v[i][2] = speed;
+    MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000, .damping = damping});
+    pile.declare(contact);
+    pile.apply(contact, dt);
+    double up = 0;
+    for (const Index i : pile.block.all) up += pile.f[i][2];
+    return up;
+  };
+  EXPECT_EQ(lift(0, -0.1), lift(0, 0.1));
+  EXPECT_GT(lift(0.1, -3), 1.05 * lift(0.1, 0));
+  EXPECT_LT(lift(0.1, 3), 0.95 * lift(0.1, 0));
+  EXPECT_GE(lift(0.1, 100), 0) << "contact must not pull";
+  EXPECT_NEAR(lift(0.1, 0), lift(0, 0), 1e-9 * lift(0, 0));
+}
+
+TEST(Stretch, AMasterStretchedTwiceIsTouchedTwiceAsFarAway) {
+  for (const double gap : {1.9, 2.1}) {
+    bodies::Pile<double, 3> pile(gap);
+    for (const Index i : pile.plate.all) pile.F[i] *= 2;
+    for (const Index i : pile.block.all) pile.F[i] *= 2;
+    // A block and a plate of half the particles, so to speak: all lengths double.
+    for (auto& x : pile.x) {
+      x[0] *= 2;
+      x[1] *= 2;
+    }
+    for (const Index i : pile.plate.all) pile.x[i][2] = 2 * (pile.x[i][2] - 2e-3);
+    for (const Index i : pile.block.all) pile.x[i][2] = 2 * (pile.x[i][2] - (2 + gap) * 1e-3) + gap * 1e-3;
+    MetaballContact<double, 3> contact(with_friction);
+    pile.declare(contact);
+    const auto report = pile.apply(contact, dt);
+    if (gap < 2)
+      EXPECT_GT(report.contacts, 10U);
+    else
+      EXPECT_EQ(report.contacts, 0U);
+  }
+}
+
+TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
+  for (const double gap : {0.3, 0., -0.5, -0.9, -1.5}) {
+    bodies::Pile<double, 3> pile(gap);
+    MetaballContact<double, 3> contact(with_friction);
+    pile.declare(contact);
+    const auto report = pile.apply(contact, dt);
+    for (const auto& f : pile.f) EXPECT_TRUE(f.allFinite());
+    EXPECT_GT(report.contacts, 10U);
+    EXPECT_LE(report.penetration, 1.8e-3);
+    if (gap > 0) {
+      EXPECT_EQ(report.deep, 0U);
+    }
+    // Half way through the two layers of the wall, where the sum is flat.
+    if (gap == -0.5) {
+      EXPECT_GT(report.deep, 16U);
+    }
+  }
+  // A wall of three layers saturates.
+  bodies::Pile<double, 3> pile(-0.9);
+  MetaballContact<double, 3, PaperMetaball> thick(with_friction);
+  const auto p = thick.add_organ({.name = "plate", .slaves = {}, .masters = pile.plate.all, .prescribed = {}});
+  const auto q = thick.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = {}, .prescribed = {}});
+  thick.add_pair(p, q, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}});
+  EXPECT_GT(pile.apply(thick, dt).deep, 8U);
+
+  // The middle of a symmetric wall has no normal at all: no force, but a report.
+  bodies::Scene<double, 3> scene;
+  const auto wall = scene.add({7, 7, 3}, {0, 0, 0}, 1e-3);
+  const auto lost = scene.add({1, 1, 1}, {3e-3, 3e-3, 1e-3}, 1e-3);
+  MetaballContact<double, 3, PaperMetaball> contact(with_friction);
+  const auto a = contact.add_organ({.name = "wall", .slaves = {}, .masters = wall.all, .prescribed = {}});
+  const auto b = contact.add_organ({.name = "lost", .slaves = lost.all, .masters = {}, .prescribed = {}});
+  contact.add_pair(a, b, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}});
+  const auto report = scene.apply(contact, dt);
+  EXPECT_EQ(report.deep, 1U);
+  EXPECT_EQ(scene.magnitude(), 0);
+}
+
+TEST(Overload, UndeformedParticlesNeedNoGradients) {
+  bodies::Pile<double, 3> pile(0.9);
+  MetaballContact<double, 3> with(with_friction), without(with_friction);
+  pile.declare(with);
+  pile.declare(without);
+  pile.apply(with, dt);
+  const auto f = pile.f;
+  pile.rest();
+  without(hmps::vectors(pile.x), hmps::vectors(pile.v), dt, hmps::vectors(pile.f), bodies::Loops{});
+  EXPECT_EQ(f, pile.f);
+}
+
+TEST(SharedParticles, AParticleInTwoOrgansGathersBothContacts) {
+  // The plate's top is one organ for the block and, with the same particles, another for a copy of it.
+  bodies::Pile<double, 3> pile(0.9);
+  const auto make = [&](bool twice) {
+    MetaballContact<double, 3> contact(with_friction);
+    pile.declare(contact);
+    if (twice) pile.declare(contact);
+    pile.apply(contact, dt);
+    return pile.f;
+  };
+  const auto once = make(false), twice = make(true);
+  // Friction aside (nothing slides), every force doubles.
+  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_LE((2 * once[i] - twice[i]).norm(), 1e-9 * pile.magnitude());
+}
+
+TEST(Door, RefusesBadInput) {
+  using Contact = MetaballContact<double, 3>;
+  const auto refuse = [](hmps::ContactSettings settings) { EXPECT_THROW(Contact{settings}, hmps::InputError); };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refuse({.spacing = 0, .density = 1000});
+  refuse({.spacing = nan, .density = 1000});
+  refuse({.spacing = 1e-3, .density = 0});
+  refuse({.spacing = 1e-3, .density = 1000, .friction = -0.1});
+  refuse({.spacing = 1e-3, .density = 1000, .friction = nan});
+  refuse({.spacing = 1e-3, .density = 1000, .damping = -1});
+  refuse({.spacing = 1e-3, .density = 1000, .skin = 0});
+
+  bodies::Pile<double, 3> pile(0.9);
+  Contact contact(with_friction);
+  const std::vector<Index> some{1, 2}, overlap{2, 3}, outside{100000};
+  EXPECT_THROW(contact.add_organ({.name = "empty", .slaves = {}, .masters = {}, .prescribed = {}}), hmps::InputError);
+  const auto a = contact.add_organ({.name = "a", .slaves = some, .masters = some, .prescribed = {}});
+  const auto b = contact.add_organ({.name = "b", .slaves = overlap, .masters = overlap, .prescribed = {}});
+  const auto c = contact.add_organ({.name = "c", .slaves = pile.block.bottom, .masters = {}, .prescribed = {}});
+  EXPECT_THROW(contact.add_pair(a, b), hmps::InputError) << "particle 2 is in both";
+  EXPECT_THROW(contact.add_pair(a, a), hmps::InputError);
+  EXPECT_THROW(contact.add_pair(a, 7), hmps::InputError);
+  EXPECT_THROW(contact.add_pair(a, c), hmps::InputError) << "c has no masters";
+
+  Contact good(with_friction);
+  pile.declare(good);
+  auto few = pile.v;
+  few.pop_back();
+  EXPECT_THROW(good(hmps::vectors(pile.x), hmps::vectors(few), dt, hmps::vectors(pile.f)), hmps::InputError);
+  EXPECT_THROW(pile.apply(good, 0.), hmps::InputError);
+  EXPECT_THROW(pile.apply(good, nan), hmps::InputError);
+  Contact beyond(with_friction);
+  beyond.add_organ({.name = "outside", .slaves = outside, .masters = outside, .prescribed = {}});
+  EXPECT_THROW(pile.apply(beyond, dt), hmps::InputError);
+  Contact stiff({.spacing = 1e-3, .density = 1000, .stiffness = hmps::PenaltyStiffness::fixed(3e12)});
+  pile.declare(stiff);
+  EXPECT_THROW(pile.apply(stiff, 2e-5), hmps::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/contact/penetration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace {
+
+TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int trial = 0; trial < 10; ++trial) {
+    hmps::Matrix<double, 3> F;
+    for (int c = 0; c < 9; ++c) F(c % 3, c / 3) = (c % 4 == 0) + 0.5 * u(random);
+    const hmps::Vector<double, 3> n = hmps::Vector<double, 3>(u(random), u(random), u(random)).normalized();
+    double furthest = 0;
+    // The ellipsoid is the image F q of the sphere |q| = l0 / 2.
+    for (int a = 0; a < 400; ++a)
+      for (int b = 0; b < 800; ++b) {
+        const double theta = 3.14159265358979 * (a + 0.5) / 400, phi = 2 * 3.14159265358979 * b / 800;
+        const hmps::Vector<double, 3> q(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                        std::cos(theta));
+        furthest = std::max(furthest, -n.dot(F * q * 0.5e-3));
+      }
+    // The grid's nearest point is 0.005 rad off at most: 1 - cos of it.
+    const double support = hmps::slave_support<double, 3>(F, n, 1e-3);
+    EXPECT_LE(furthest, support * (1 + 1e-12));
+    EXPECT_GE(furthest, support * (1 - 4e-4));
+  }
+}
+
+TEST(Penetration, UndeformedSlaveIsASphereInAnyDirection) {
+  const hmps::Matrix<float, 2> I = hmps::Matrix<float, 2>::Identity();
+  EXPECT_FLOAT_EQ((hmps::slave_support<float, 2>(I, {0.6F, 0.8F}, 2.F)), 1.F);
+}
+
+TEST(Penetration, IsZeroWhereTheyDoNotTouch) {
+  EXPECT_DOUBLE_EQ(hmps::penetration(0.5, 0.3), 0.2);
+  EXPECT_EQ(hmps::penetration(0.5, 0.5), 0.);
+  EXPECT_EQ(hmps::penetration(0.5, 0.7), 0.);
+  EXPECT_DOUBLE_EQ(hmps::penetration(0.5, -0.2), 0.7);
+}
+
+}  // namespace
