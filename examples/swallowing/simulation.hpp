@@ -72,6 +72,9 @@ class Simulation {
     const auto v = velocities();
     force_(body(x), body(v), body(forces()), execute_);
     hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
+    // What has a forced displacement moves by it, also as a wall, whatever forces act on it.
+    ++steps_;
+    prescribe();
 
     const auto start = std::chrono::steady_clock::now();
     std::fill(f_.begin(), f_.end(), S(0));
@@ -79,9 +82,7 @@ class Simulation {
     hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-    ++steps_;
-    for (const auto& region : regions_)
-      region.prescribe(time(), time_step_, x, v, hmps::Serial{}, materials_.speed_limit);
+    prescribe();
     hmps::drift(x, v, time_step_, execute_);
   }
 
@@ -171,6 +172,12 @@ class Simulation {
     if (settings.penalty > 0) return settings.penalty;
     if (settings.penalty_ratio > 0) return settings.penalty_ratio * materials_.density / (time_step_ * time_step_);
     return materials_.contact_stiffness / scene_->spacing;
+  }
+
+  /// Gives the control regions the velocities that take them where they are at the end of the step.
+  void prescribe() {
+    for (const auto& region : regions_)
+      region.prescribe(time(), time_step_, positions(), velocities(), hmps::Serial{}, materials_.speed_limit);
   }
 
   void add_contacts() {
