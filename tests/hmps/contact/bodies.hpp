@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "hmps/contact/organ.hpp"
 #include "hmps/core/view.hpp"
 
 /// Lattice boxes for the tests of contact.
