@@ -53,10 +53,11 @@ int main() {
     force(x, v, f);                                      // what holds the bodies together, N/m3
     for (Vector& density : load) density[2] -= rho * g;  // their weight
     hmps::kick(v, f, rho, dt);
+    pulled.prescribe(t, dt, x, v);  // forced displacement, which contact has to see
     for (Vector& density : load) density.setZero();
     contact(x, v, F, dt, f);  // what they do to each other
     hmps::kick(v, f, rho, dt);
-    pulled.prescribe(t, dt, x, v);  // forced displacement
+    pulled.prescribe(t, dt, x, v);
     hmps::drift(x, v, dt);
   };
   //! [composition]

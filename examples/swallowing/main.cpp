@@ -7,6 +7,7 @@
 #include "../common/files.hpp"
 #include "comparison.hpp"
 #include "options.hpp"
+#include "progress.hpp"
 #include "run_case.hpp"
 
 int main(int argc, char** argv) {
@@ -19,10 +20,13 @@ int main(int argc, char** argv) {
     examples::prepare_folder(out);
     for (const auto& name : options->cases) {
       const Summary summary = run_case(*options, find_case(name));
-      std::cout << name << ": "
-                << (summary.fold_time ? "folds below the horizontal at " + std::to_string(*summary.fold_time) + " s"
-                                      : "does not fold")
-                << ", smallest tip angle " << summary.tip_angle_min << " degrees, " << summary.wall_seconds << " s\n";
+      std::cout << name << ": ";
+      if (summary.fold_time)
+        std::cout << "folds below the horizontal at " << *summary.fold_time << " s";
+      else
+        std::cout << "does not fold until " << summary.time << " s";
+      std::cout << ", smallest tip angle " << summary.tip_angle_min << " degrees; took "
+                << duration(summary.wall_seconds) << '\n';
       if (summary.failure) {
         std::cerr << name << " stopped: " << *summary.failure << '\n';
         exit_code = 1;

@@ -54,8 +54,10 @@ class ControlRegion {
   }
 
   /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed
-  /// position at `t_next` = t + dt (s). Call it after the last kick and before the drift. The error
-  /// of rounding in `x` does not add up over steps.
+  /// position at `t_next` = t + dt (s). Call it after the last kick and before the drift, and in a
+  /// scene with contact also before the contact: internal forces kick a prescribed particle like any
+  /// other, and a wall with that velocity would rub where it does not move. The error of rounding in
+  /// `x` does not add up over steps.
   ///
   /// `speed_limit` (m/s): throws `StateError`, naming particle and speed, where the motion asks for
   /// more or is not finite, as when a run starts in the middle of a motion without `place`.
