@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// expect: a term of internal_force needs couple(particles, coupling) or damping(bonds)
+#include <vector>
+
+#include "hmps/force/internal_force.hpp"
+#include "hmps/neighbours/lattice_bonds.hpp"
+
+struct Gravity {};
+
+int main() {
+  std::vector<Eigen::Vector3d> x(1);
+  const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(x), {.spacing = 1e-3});
+  auto force = hmps::internal_force(bonds, Gravity{});
+  (void)force;
+}

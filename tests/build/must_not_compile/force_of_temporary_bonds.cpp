@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// expect: deleted function
+#include <vector>
+
+#include "hmps/force/internal_force.hpp"
+#include "hmps/neighbours/lattice_bonds.hpp"
+#include "hmps/stabilise/artificial.hpp"
+
+int main() {
+  std::vector<Eigen::Vector3d> x(1);
+  // The force refers to its bonds; these would be gone at once.
+  hmps::internal_force(hmps::LatticeBonds<double, 3>(hmps::vectors(x), {.spacing = 1e-3}), hmps::artificial(2e4));
+}
