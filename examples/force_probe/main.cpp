@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <hmps/motion/csv.hpp>
 #include <iostream>
 #include <string>
 
-#include "../common/csv_reader.hpp"
 #include "../common/csv_writer.hpp"
 #include "probe.hpp"
 
@@ -15,24 +16,23 @@ using namespace force_probe;
 
 /// The state in a table with the columns X,Y,Z,x,y,z,vx,vy,vz,body in any order.
 State read_state(const std::string& path) {
-  const auto table = examples::parse_csv(examples::read_file(path), path);
-  const auto column = [&](const char* name) {
-    const auto found = std::find(table.header.begin(), table.header.end(), name);
-    hmps::require(found != table.header.end(), path, " has no column ", name,
-                  "; its first line must be X,Y,Z,x,y,z,vx,vy,vz,body");
-    return static_cast<std::size_t>(found - table.header.begin());
-  };
-  const std::size_t X[] = {column("X"), column("Y"), column("Z")}, x[] = {column("x"), column("y"), column("z")},
-                    v[] = {column("vx"), column("vy"), column("vz")}, body = column("body");
-  hmps::require(!table.rows.empty(), path, " has no particles; give a line for each below the header");
+  const hmps::Table table = hmps::read_csv(path);
+  const std::size_t X[] = {table.column("X"), table.column("Y"), table.column("Z")},
+                    x[] = {table.column("x"), table.column("y"), table.column("z")},
+                    v[] = {table.column("vx"), table.column("vy"), table.column("vz")}, body = table.column("body");
+  hmps::require(table.rows() > 0, path, " has no particles; give a line for each below the header");
   State state;
-  for (const auto& row : table.rows) {
-    state.reference.push_back({row[X[0]], row[X[1]], row[X[2]]});
-    state.position.push_back({row[x[0]], row[x[1]], row[x[2]]});
-    state.velocity.push_back({row[v[0]], row[v[1]], row[v[2]]});
-    hmps::require(row[body] == std::floor(row[body]) && std::abs(row[body]) < 1e9, path, ": the body of particle ",
-                  state.body.size(), " is ", row[body], "; it must be a whole number");
-    state.body.push_back(static_cast<int>(row[body]));
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto triple = [&](const std::size_t(&columns)[3]) {
+      return std::array{table(i, columns[0]), table(i, columns[1]), table(i, columns[2])};
+    };
+    state.reference.push_back(triple(X));
+    state.position.push_back(triple(x));
+    state.velocity.push_back(triple(v));
+    const double number = table(i, body);
+    hmps::require(number == std::floor(number) && std::abs(number) < 1e9, path, " line ", table.lines[i],
+                  ": the body of particle ", i, " is ", number, "; it must be a whole number");
+    state.body.push_back(static_cast<int>(number));
   }
   return state;
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "../common/csv_reader.hpp"
 #include "../common/csv_writer.hpp"
 
 namespace swallowing {
@@ -52,10 +53,11 @@ struct Sample {
   for (std::size_t begin = text.find('\n') + 1; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     std::vector<double> row;
-    for (const auto cell : examples::detail::split(std::string_view(text).substr(begin, end - begin))) {
+    for (const char *cell = text.data() + begin, *line_end = text.data() + end; cell < line_end; ++cell) {
       double value = 0;
-      const auto [last, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (problem == std::errc() && last == cell.data() + cell.size()) row.push_back(value);
+      const auto [last, problem] = std::from_chars(cell, line_end, value);
+      if (problem == std::errc()) row.push_back(value);
+      cell = std::find(last, line_end, ',');
     }
     hmps::require(row.size() == Sample{}.values().size(), path.string(), " has a malformed line after ",
                   samples.size() + 1, " lines; remove the file or choose another folder with --out");

@@ -271,7 +271,7 @@ def main(program):
 
         header = "X,Y,Z,x,y,z,vx,vy,vz,body\n"
         refused(program, folder, "", "empty")
-        refused(program, folder, "X,Y,Z\n0,0,0\n", "no column x")
+        refused(program, folder, "X,Y,Z\n0,0,0\n", "no column 'x'")
         refused(program, folder, header, "no particles")
         refused(program, folder, header + "0,0,0,0,0,0,0,0,nan,1\n", "line 2")
         refused(program, folder, header + "0,0,0,0,0,0,0,0,0,1.5\n", "whole number")

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "../common/csv_reader.hpp"
+#include <hmps/motion/csv.hpp>
+
 #include "../common/csv_writer.hpp"
 #include "folder.hpp"
 
@@ -41,28 +42,11 @@ TEST(Csv, NumbersComeBackToTheLastBit) {
   const std::vector<double> row{0.1, -1.0 / 3, 1e-300, 6.02214076e23, 0};
   { examples::CsvWriter(folder.path / "t.csv", "a,b,c,d,e").add(row); }
   { examples::CsvWriter(folder.path / "t.csv", "a,b,c,d,e", true).add(row); }
-  const auto table = examples::parse_csv(examples::read_file(folder.path / "t.csv"), "t.csv");
-  EXPECT_EQ(table.header, (std::vector<std::string>{"a", "b", "c", "d", "e"}));
-  EXPECT_EQ(table.rows, (std::vector<std::vector<double>>{row, row}));
-}
-
-TEST(Csv, CommentsBlanksAndWindowsLineEndsPass) {
-  const auto table = examples::parse_csv("# source\r\nt, x\r\n\r\n1, 2 \r\n# more\n3,4", "m");
-  EXPECT_EQ(table.header, (std::vector<std::string>{"t", "x"}));
-  EXPECT_EQ(table.rows, (std::vector<std::vector<double>>{{1, 2}, {3, 4}}));
-}
-
-TEST(Csv, MistakesNameTheLine) {
-  const auto complaint = [](const char* text) {
-    return message_of<InputError>([&] { (void)examples::parse_csv(text, "m.csv"); });
-  };
-  EXPECT_NE(complaint("a,b\n1,2\n3\n").find("line 3"), std::string::npos);
-  EXPECT_NE(complaint("a,b\n1,2\n3,4,5\n").find("line 3"), std::string::npos);
-  EXPECT_NE(complaint("a,b\n1,two\n").find("line 2, column b: 'two'"), std::string::npos);
-  EXPECT_NE(complaint("a,b\n1,nan\n").find("line 2"), std::string::npos);
-  EXPECT_NE(complaint("a,b\n1,\n").find("line 2"), std::string::npos);
-  EXPECT_NE(complaint("a,b\n1,2x\n").find("line 2"), std::string::npos);
-  EXPECT_NE(complaint("\n\n").find("empty"), std::string::npos);
+  const auto table = hmps::read_csv((folder.path / "t.csv").string());
+  EXPECT_EQ(table.names, (std::vector<std::string>{"a", "b", "c", "d", "e"}));
+  std::vector<double> twice(row);
+  twice.insert(twice.end(), row.begin(), row.end());
+  EXPECT_EQ(table.values, twice);
 }
 
 }  // namespace
