@@ -49,8 +49,8 @@ class BlockOfParticles {
     require_size(body, blocks_.size(), "bodies");
     return gather([&](Index i) {
       const auto b = static_cast<std::size_t>(body[i]);
-      require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i], " but the table of parameters has ",
-              table.size(), " bodies; number them from 0");
+      require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i],
+              " but the table of parameters has ", table.size(), " bodies; number them from 0");
       return table[b];
     });
   }
