@@ -82,9 +82,6 @@ class Candidates {
     std::uint8_t flags;
     Index rows, slots;  // ends in touched_rows, touched_slots
   };
-  struct Entry {
-    Index row, candidate;
-  };
 
   NormalDensity<S, D, Ball> normal_density;
   std::vector<OrganRange> organs;
@@ -95,9 +92,10 @@ class Candidates {
   std::vector<Row> rows;       // one more at the end
   std::vector<Index> slot_of;  // per candidate
   std::vector<Index> slot_member, slot_particle, slot_touched;
-  std::vector<Index> slot_begin;  // into slot_entries
-  std::vector<Entry> slot_entries;
-  std::vector<Touched> touched;  // every particle of rows and slots once
+  std::vector<Index> slot_begin;  // into slot_rows
+  std::vector<Index> slot_rows;   // what refers to a slot, rows ascending
+  std::vector<Index> entry_of;    // per candidate, its place in slot_rows
+  std::vector<Touched> touched;   // every particle of rows and slots once
   std::vector<Index> touched_rows, touched_slots;
   std::size_t rebuilds = 0, checks = 0, late = 0;
 

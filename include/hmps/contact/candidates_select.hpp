@@ -189,11 +189,14 @@ void Candidates<S, D, Ball>::transpose() {
     ++slot_begin[slot_of[k] + 1];
   }
   for (std::size_t l = 0; l < slot_count; ++l) slot_begin[l + 1] += slot_begin[l];
-  slot_entries.resize(slot_of.size());
+  slot_rows.resize(slot_of.size());
+  entry_of.resize(slot_of.size());
   next_.assign(slot_begin.begin(), slot_begin.end() - 1);
   for (std::size_t r = 0; r < row_count; ++r)
-    for (Index k = rows[r].begin; k < rows[r + 1].begin; ++k)
-      slot_entries[next_[slot_of[k]]++] = {static_cast<Index>(r), k};
+    for (Index k = rows[r].begin; k < rows[r + 1].begin; ++k) {
+      entry_of[k] = next_[slot_of[k]]++;
+      slot_rows[entry_of[k]] = static_cast<Index>(r);
+    }
   for (const Index m : slot_member) slot_of_member_[m] = none;
 
   // Each particle once, with all its rows and slots: the only place where its force is written.

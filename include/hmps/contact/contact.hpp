@@ -2,10 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "hmps/contact/candidates.hpp"
@@ -15,6 +14,7 @@
 #include "hmps/contact/organ.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
+#include "hmps/contact/quad.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
@@ -130,20 +130,19 @@ class MetaballContact {
     for (const Index r : touching_) {
       const auto& side = lists_.sides[lists_.rows[r].side];
       if (side.pair != pair) continue;
-      const Vector<double, D> force = force_[r].template cast<double>();
+      const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
       sum += side.slaves == lists_.pairs[pair].first ? force : -force;
     }
     return sum * std::pow(settings_.spacing, D);
   }
 
  private:
+  using Quad = detail::Quad<S>;
   struct Master {
-    Point x;
-    Tensor A;  // F^-T F^-1
+    Quad x, A[D];  // A = F^-T F^-1
   };
   struct Moving {
-    Tensor B;  // F^-1
-    Point v;
+    Quad v, B[D];  // B = F^-1
   };
   struct RowState {
     Point normal, slip;  // slip: v_im
@@ -173,13 +172,13 @@ class MetaballContact {
   Lists lists_;
   std::vector<Master> masters_;  // per slot
   std::vector<Moving> moving_;
-  std::vector<std::uint8_t> slot_hit_;
-  std::vector<S> weight_;        // per candidate: c / C where the row touches, else 0
+  // Per candidate c / C where the row touches, else 0; row by row, and slot by slot.
+  std::vector<S> weight_, slot_weight_;
   std::vector<RowState> state_;  // per row
-  std::vector<Point> force_;
+  std::vector<Quad> force_;
   std::vector<Index> batch_rows_, touching_;
   std::vector<Batch> batches_;
-  std::vector<S> load_;  // per touched particle: N
+  std::vector<S> load_, slot_load_;  // per touched particle and per slot: N
 };
 
 }  // namespace hmps

@@ -11,8 +11,9 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   const std::size_t row_count = lists_.rows.size() - 1, slot_count = lists_.slot_member.size();
   masters_.resize(slot_count);
   moving_.resize(slot_count);
-  slot_hit_.resize(slot_count);
   weight_.resize(lists_.slot_of.size());
+  slot_weight_.resize(lists_.slot_of.size());
+  slot_load_.resize(slot_count);
   state_.resize(row_count);
   force_.resize(row_count);
   batch_rows_.resize(row_count);
@@ -30,12 +31,21 @@ bool MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
     bool strayed = false;
     for (std::size_t l = q * batch; l < std::min(slot_count, (q + 1) * batch); ++l) {
       const Index j = lists_.slot_particle[l];
-      const Tensor B = inverse<S, D>(F[j].template cast<S>());
-      // A master squashed flat is no wall: as A is not finite, every comparison with it fails.
-      masters_[l] = {x[j].template cast<S>(), B.transpose().lazyProduct(B)};
-      moving_[l] = {B, v[j].template cast<S>()};
-      slot_hit_[l] = 0;
-      strayed = strayed || lists_.strayed(l, masters_[l].x);
+      Tensor B = inverse<S, D>(F[j].template cast<S>());
+      Point place = x[j].template cast<S>();
+      strayed = strayed || lists_.strayed(l, place);
+      // A master that is squashed flat is no wall: it is put out of reach.
+      if (!(B.squaredNorm() < std::numeric_limits<S>::max())) {
+        B.setIdentity();
+        place.setConstant(S(1e6));
+      }
+      const Tensor A = product<S, D>(B.transpose(), B);
+      detail::spread<S>(place, masters_[l].x);
+      detail::spread<S>(v[j].template cast<S>(), moving_[l].v);
+      for (int c = 0; c < D; ++c) {
+        detail::spread<S>(A.col(c), masters_[l].A[c]);
+        detail::spread<S>(B.col(c), moving_[l].B[c]);
+      }
     }
     batches_[q].strayed = strayed;
   });
@@ -55,14 +65,17 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   RowState& state = state_[r];
   const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
   const S over_radius_squared = S(1) / (radius * radius);
-  const Point place = x[row.particle].template cast<S>();
+  Quad place;
+  detail::spread<S>(x[row.particle].template cast<S>(), place);
 
   MasterSurface<S, D, Ball> surface;
   for (std::size_t k = begin; k < end; ++k) {
     const Master& master = masters_[slot[k]];
-    weight[k] = surface.reach(master.A, master.x - place, over_radius_squared);
+    Quad towards = master.x;
+    towards -= place;
+    weight[k] = surface.reach(master.A, towards, over_radius_squared);
   }
-  const auto centres = lists_.normal_density.inverse(surface.density);
+  const auto centres = lists_.normal_density.inverse(surface.density());
   bool touches = centres.reached;
   if (touches && !surface.normal(radius, state.normal)) {
     deep = true;
@@ -80,21 +93,18 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
       touches = state.penetration > S(0);
     }
   }
+  const Index* entry = lists_.entry_of.data();
+  S* slot_weight = slot_weight_.data();
   if (!touches) {
-    std::fill(weight + begin, weight + end, S(0));
+    for (std::size_t k = begin; k < end; ++k) slot_weight[entry[k]] = weight[k] = 0;
     return false;
   }
   deep = centres.deep ||
-         (centres.value < S(0) && S(2) * over_radius_squared * surface.gradient.norm() * surface.stretch(state.normal) <
+         (centres.value < S(0) && surface.gradient(over_radius_squared).norm() * surface.stretch(state.normal) <
                                       lists_.normal_density.least_slope());
   state.slip = surface.relative_velocity(v[row.particle].template cast<S>());
-  const S over_density = S(1) / surface.density;
-  for (std::size_t k = begin; k < end; ++k) {
-    if (!(weight[k] > S(0))) continue;
-    weight[k] *= over_density;
-    // Several slaves may mark one master at once, all with the same value.
-    std::atomic_ref<std::uint8_t>(slot_hit_[slot[k]]).store(1, std::memory_order_relaxed);
-  }
+  const S over_density = S(1) / surface.density();
+  for (std::size_t k = begin; k < end; ++k) slot_weight[entry[k]] = weight[k] *= over_density;
   return true;
 }
 
@@ -110,12 +120,12 @@ void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
         load += static_cast<S>(state_[lists_.touched_rows[q]].penetration > S(0));
       for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].slots; q < own.slots; ++q) {
         const Index l = lists_.touched_slots[q];
-        if (!slot_hit_[l]) continue;
-        for (std::size_t e = lists_.slot_begin[l]; e < lists_.slot_begin[l + 1]; ++e)
-          load += weight_[lists_.slot_entries[e].candidate];
+        for (std::size_t e = lists_.slot_begin[l]; e < lists_.slot_begin[l + 1]; ++e) load += slot_weight_[e];
       }
     }
     load_[t] = load;
+    for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].slots; q < own.slots; ++q)
+      slot_load_[lists_.touched_slots[q]] = load;
   });
 }
 
@@ -125,7 +135,7 @@ template <class T, class E>
 void MetaballContact<S, D, Ball, Friction>::hand_out(const T& f, const E& execute) const {
   execute(lists_.touched.size(), [&](std::size_t t) {
     const auto& own = lists_.touched[t];
-    Point force = Point::Zero();
+    Quad force{};
     bool hit = false;
     for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].rows; q < own.rows; ++q) {
       const Index r = lists_.touched_rows[q];
@@ -135,15 +145,13 @@ void MetaballContact<S, D, Ball, Friction>::hand_out(const T& f, const E& execut
     }
     for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].slots; q < own.slots; ++q) {
       const Index l = lists_.touched_slots[q];
-      if (!slot_hit_[l]) continue;
-      hit = true;
       for (std::size_t e = lists_.slot_begin[l]; e < lists_.slot_begin[l + 1]; ++e) {
-        const auto& entry = lists_.slot_entries[e];
-        const S w = weight_[entry.candidate];
-        if (w > S(0)) force -= w * force_[entry.row];
+        if (!(slot_weight_[e] > S(0))) continue;
+        force -= force_[lists_.slot_rows[e]] * slot_weight_[e];
+        hit = true;
       }
     }
-    if (hit) f.add(own.particle, force);
+    if (hit) f.add(own.particle, detail::first<D, S>(force));
   });
 }
 
@@ -204,17 +212,18 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
       S load = 0;
       if (needs_load) {
         for (std::size_t e = lists_.rows[r].begin; e < lists_.rows[r + 1].begin; ++e)
-          if (weight_[e] > S(0)) load += weight_[e] * load_[lists_.slot_touched[lists_.slot_of[e]]];
+          load += weight_[e] * slot_load_[lists_.slot_of[e]];
         load += load_[lists_.rows[r].touched];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       const S normal = normal_force(k, state.penetration, std::min(damping, most), state.slip.dot(state.normal));
-      force_[r] = normal * state.normal;
+      Point force = normal * state.normal;
       if (mu > S(0)) {
         const Point slip = tangential<S, D>(state.slip, state.normal);
-        force_[r] += friction_force<S, D>(slip, stick, mu * normal);
+        force += friction_force<S, D>(slip, stick, mu * normal);
         result.count += stick * slip.norm() <= mu * normal;
       }
+      detail::spread<S>(force, force_[r]);
     }
     batches_[q] = result;
   });

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "hmps/contact/metaball.hpp"
-#include "hmps/contact/normal_density.hpp"
+#include "hmps/contact/quad.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps {
@@ -17,51 +15,83 @@ namespace hmps {
 /// with A_j = F_j^-T F_j^-1, so one product serves sum and gradient; a rotation of the master changes
 /// nothing, and rigid masters pass the identity.
 template <class S, int D, Metaball Ball = PaperMetaball>
-struct MasterSurface {
-  S density = 0;                                     ///< C_im, \paper{28}.
-  Vector<S, D> gradient = Vector<S, D>::Zero();      ///< Sum of (dc/ds) A_j r_ij (see `normal`).
-  Vector<S, D> velocity_sum = Vector<S, D>::Zero();  ///< Sum of c v_j.
-  Matrix<S, D> inverse_sum = Matrix<S, D>::Zero();   ///< Sum of c F_j^-1.
+class MasterSurface {
+  using Quad = detail::Quad<S>;
 
+ public:
   /// Adds one master to \paper{28, 30} and returns its c, zero beyond its reach.
   /// `over_radius_squared` is 1 / r_e^2 in 1/m2.
   S reach(const Matrix<S, D>& A, const Vector<S, D>& r, S over_radius_squared) {
-    const Vector<S, D> y = A.lazyProduct(r);
-    const S s = r.dot(y) * over_radius_squared;
-    if (!(s < S(1))) return 0;
-    const S c = Ball::value(s);
-    density += c;
-    gradient += Ball::slope(s) * y;
+    Quad columns[D], place;
+    for (int c = 0; c < D; ++c) detail::spread<S>(A.col(c), columns[c]);
+    detail::spread<S>(r, place);
+    return reach(columns, place, over_radius_squared);
+  }
+  /// The same from the columns of A_j and r_ij with zeros behind.
+  HMPS_INLINE S reach(const Quad* A, const Quad& r, S over_radius_squared) {
+    Quad y = A[0] * r[0];
+    for (int c = 1; c < D; ++c) y += A[c] * r[static_cast<std::size_t>(c)];
+    const Quad product = r * y;
+    const S s = (D == 3 ? product[0] + product[1] + product[2] : product[0] + product[1]) * over_radius_squared;
+    // Selected, not branched to: whether a master is within reach is as good as random.
+    const bool within = s < S(1);
+    const S at = within ? s : S(1), c = within ? S(Ball::value(at)) : S(0);
+    y = y * (within ? S(Ball::slope(at)) : S(0));
+    y[3] = c;
+    sum_ += y;
     return c;
   }
 
   /// Adds one master with metaball value `c`, B = F_j^-1 and its velocity to the means of \paper{31, 33}.
-  void mean(S c, const Matrix<S, D>& B, const Vector<S, D>& velocity) {
-    velocity_sum += c * velocity;
-    inverse_sum += c * B;
+  void mean(S c, const Matrix<S, D>& B, const Vector<S, D>& v) {
+    Quad columns[D], velocity;
+    for (int q = 0; q < D; ++q) detail::spread<S>(B.col(q), columns[q]);
+    detail::spread<S>(v, velocity);
+    mean(c, columns, velocity);
+  }
+  HMPS_INLINE void mean(S c, const Quad* B, const Quad& v) {
+    velocity_ += v * c;
+    for (int q = 0; q < D; ++q) inverse_[q] += B[q] * c;
   }
 
-  /// n_m, \paper{30}: the unit normal from the wall to the slave. The gradient is taken with respect
-  /// to x_i, grad c = -(2 / r_e^2) (dc/ds) A_j r_ij, so the minus of \paper{30} turns it outwards.
-  /// Deep inside a wall the sum vanishes (0/0): returns false, and leaves `n` zero, where it is
-  /// below a thousandth of what its terms could add up to.
+  /// C_im, \paper{28}.
+  [[nodiscard]] S density() const { return sum_[3]; }
+
+  /// Gradient of C_im with respect to x_i in 1/m: grad c = -(2 / r_e^2) (dc/ds) A_j r_ij.
+  [[nodiscard]] Vector<S, D> gradient(S over_radius_squared) const {
+    return S(-2) * over_radius_squared * detail::first<D, S>(sum_);
+  }
+
+  /// n_m, \paper{30}: the unit normal from the wall to the slave; the minus of \paper{30} turns the
+  /// gradient outwards. Deep inside a wall the sum vanishes (0/0): returns false, and leaves `n` zero,
+  /// where it is below a thousandth of what its terms could add up to.
   [[nodiscard]] bool normal(S radius, Vector<S, D>& n) const {
-    const S length = gradient.norm();
-    if (!(length > S(1e-3) * density * radius)) {
+    n = detail::first<D, S>(sum_);
+    const S length = n.norm();
+    if (!(length > S(1e-3) * density() * radius)) {
       n.setZero();
       return false;
     }
-    n = gradient / length;
+    n /= length;
     return true;
   }
 
   /// v_im, \paper{31}: velocity of the wall relative to a slave of velocity `slave`, m/s.
   [[nodiscard]] Vector<S, D> relative_velocity(const Vector<S, D>& slave) const {
-    return velocity_sum / density - slave;
+    return detail::first<D, S>(velocity_) / density() - slave;
   }
 
   /// Mean stretch of the masters along the normal, \paper{32, 33}; the paper calls it strain.
-  [[nodiscard]] S stretch(const Vector<S, D>& n) const { return density / (inverse_sum * n).norm(); }
+  [[nodiscard]] S stretch(const Vector<S, D>& n) const {
+    Vector<S, D> squeezed = Vector<S, D>::Zero();
+    for (int q = 0; q < D; ++q) squeezed += n[q] * detail::first<D, S>(inverse_[q]);
+    return density() / squeezed.norm();
+  }
+
+ private:
+  Quad sum_{};            // of (dc/ds) A_j r_ij, and of c behind it
+  Quad velocity_{};       // of c v_j
+  Quad inverse_[D] = {};  // of c F_j^-1
 };
 
 /// r_im in m, \paper{34, 35, 36}: distance of the slave's centre from the master surface, which lies

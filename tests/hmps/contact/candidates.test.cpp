@@ -124,10 +124,11 @@ TEST(Candidates, AreOrderedAndTransposedConsistently) {
   std::size_t entries = 0;
   for (std::size_t l = 0; l < lists.slot_particle.size(); ++l)
     for (Index e = lists.slot_begin[l]; e < lists.slot_begin[l + 1]; ++e, ++entries) {
-      const auto& entry = lists.slot_entries[e];
-      EXPECT_EQ(lists.slot_of[entry.candidate], l);
-      EXPECT_GE(entry.candidate, lists.rows[entry.row].begin);
-      EXPECT_LT(entry.candidate, lists.rows[entry.row + 1].begin);
+      const auto& row = lists.rows[lists.slot_rows[e]];
+      const Index end = lists.rows[lists.slot_rows[e] + 1].begin;
+      std::size_t same = 0;
+      for (Index k = row.begin; k < end; ++k) same += lists.entry_of[k] == e && lists.slot_of[k] == l;
+      EXPECT_EQ(same, 1U);
     }
   EXPECT_EQ(entries, lists.slot_of.size());
   EXPECT_EQ(lists.touched.back().rows, lists.rows.size() - 1);
