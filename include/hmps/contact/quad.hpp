@@ -50,7 +50,8 @@ using Quad = typename QuadOf<S>::Type;
 /// `v` in `quad`, zeros behind it.
 template <class S, class Derived>
 HMPS_INLINE void spread(const Eigen::MatrixBase<Derived>& v, Quad<S>& quad) {
-  for (int c = 0; c < 4; ++c) quad[static_cast<std::size_t>(c)] = c < v.size() ? v[c < v.size() ? c : 0] : S(0);
+  quad = Quad<S>{};
+  for (int c = 0; c < v.size(); ++c) quad[static_cast<std::size_t>(c)] = v[c];
 }
 
 /// The first `D` numbers of `quad`.
