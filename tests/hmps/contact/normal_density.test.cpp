@@ -103,7 +103,7 @@ TEST(NormalDensity, RefusesBadSpacing) {
   using Z = hmps::NormalDensity<double, 3>;
   EXPECT_THROW(Z(0.), hmps::InputError);
   EXPECT_THROW(Z(-1.), hmps::InputError);
-  EXPECT_THROW(Z(std::numeric_limits<double>::quiet_NaN()), hmps::InputError);
+  EXPECT_THROW(static_cast<void>(Z(std::numeric_limits<double>::quiet_NaN())), hmps::InputError);
 }
 
 }  // namespace
