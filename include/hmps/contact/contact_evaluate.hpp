@@ -37,25 +37,22 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
         const Index j = lists_.awake[begin + l].particle;
         Master& master = masters_[begin + l];
         Moving& moving = moving_[begin + l];
-        detail::spread<S>(x[j].template cast<S>(), master.x);
-        detail::spread<S>(v[j].template cast<S>(), moving.v);
+        const Point place = x[j].template cast<S>(), velocity = v[j].template cast<S>();
         S size = 0;
-        for (int c = 0; c < D; ++c) {
-          Point column_of_A, column_of_B;
-          for (int r = 0; r < D; ++r) {
-            column_of_A[r] = A(r, c).lane[l];
-            column_of_B[r] = B(r, c).lane[l];
+        for (int r = 0; r < D; ++r) {
+          master.x[r] = place[r];
+          moving.v[r] = velocity[r];
+          size += A(r, r).lane[l];
+          for (int c = 0; c < D; ++c) {
+            master.A[c][r] = A(r, c).lane[l];
+            moving.B[c][r] = B(r, c).lane[l];
           }
-          size += column_of_A[c];
-          detail::spread<S>(column_of_A, master.A[c]);
-          detail::spread<S>(column_of_B, moving.B[c]);
         }
         // A master that is squashed flat is no wall: it is put out of reach.
         if (!(size < std::numeric_limits<S>::max())) {
-          detail::spread<S>(Point::Constant(S(1e6)), master.x);
-          for (int c = 0; c < D; ++c) {
-            detail::spread<S>(Point::Unit(c), master.A[c]);
-            detail::spread<S>(Point::Unit(c), moving.B[c]);
+          for (int r = 0; r < D; ++r) {
+            master.x[r] = S(1e6);
+            for (int c = 0; c < D; ++c) master.A[c][r] = moving.B[c][r] = static_cast<S>(r == c);
           }
         }
       }
@@ -140,20 +137,11 @@ template <class T, class E>
 void MetaballContact<S, D, Ball, Friction>::hand_out(const T& f, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
+    // Rows that do not touch have no force: adding it costs less than to ask.
     Quad force{};
-    bool hit = false;
-    for (std::size_t q = own.rows; q < next.rows; ++q) {
-      const Index r = lists_.slave_rows[q];
-      if (!(state_[r].penetration > S(0))) continue;
-      force += force_[r];
-      hit = true;
-    }
-    for (std::size_t e = own.entries; e < next.entries; ++e) {
-      if (!(entry_weight_[e] > S(0))) continue;
-      force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
-      hit = true;
-    }
-    if (hit) f.add(own.particle, detail::first<D, S>(force));
+    for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.slave_rows[q]];
+    for (std::size_t e = own.entries; e < next.entries; ++e) force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
+    f.add(own.particle, detail::first<D, S>(force));
   });
 }
 
@@ -184,8 +172,10 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
       bool is_deep = false;
       if (touch(r, x, v, F, is_deep))
         batch_rows_[q * batch + result.count++] = static_cast<Index>(r);
-      else
+      else {
         state_[r].penetration = 0;
+        force_[r] = Quad{};
+      }
       result.deep += is_deep;
     }
     batches_[q] = result;
