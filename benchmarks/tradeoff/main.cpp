@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Sweeps scenes over their parameters and writes what accuracy costs: see docs/tradeoff.md, which this writes.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "../../examples/common/files.hpp"
+#include "chart.hpp"
+#include "report.hpp"
+#include "scenes.hpp"
+#include "sweep.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The name that the system gives the processor.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "an unnamed processor";
+}
+
+#ifdef __clang__
+constexpr const char* compiler = "clang++ " __clang_version__;
+#else
+constexpr const char* compiler = "g++ " __VERSION__;
+#endif
+
+std::string preface() {
+  std::string text = "# What accuracy costs\n\n";
+  text += tradeoff::wrapped(
+      "This page and its pictures are written by `benchmarks/tradeoff/run`; nothing in it is typed by hand. "
+      "`benchmarks/tradeoff/run --help` lists what else it does; `results/tradeoff` gets the tables of all runs. A "
+      "scene "
+      "of your own is one file beside `benchmarks/tradeoff/beam.cpp`.");
+  text += '\n';
+  for (
+      const char* line :
+      {"- **Error**: signed, in per cent of the right answer, or of what the quantity is named for.",
+       "- **Particle-steps** and **memory** are counted, and the same everywhere. Memory is what the scene holds while "
+       "stepping.",
+       "- **Time** is that of one processor over that of the standard settings, each run timed beside the standard; "
+       "median of up to five. Differences below a tenth mean nothing.",
+       "- **Front**: the runs that no other run beats in error and cost at once. A run can be on it because its error "
+       "happens to cross zero; \"what to choose\" therefore names only runs that keep the error when the spacing alone "
+       "is refined.",
+       "- **take** costs less at no larger an error, or errs less at no larger a cost; **pay** errs less for more; "
+       "**save** errs more for less; **leave** gains nothing; **weigh** has one error smaller and another larger; "
+       "**avoid** does not run."})
+    text += tradeoff::wrapped(line, "  ");
+  return text + '\n' + tradeoff::wrapped("Compiled by " + std::string(compiler) + ", run on " + processor() + ".");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace tradeoff;
+  std::vector<std::string> names{"beam", "bar", "contact"};
+  std::string out = "results/tradeoff", document;
+#ifdef TRADEOFF_SWALLOW
+  names.emplace_back("swallow");
+#endif
+  std::vector<std::string> chosen = names;
+  bool quick = false;
+  CLI::App app(
+      "Sweeps scenes over spacing, step, scalar and more, and writes the front of error against cost as CSV,\n"
+      "picture and sentences.",
+      "tradeoff");
+  app.add_option("--scene", chosen, "which of " + CLI::detail::join(names) + " (default: all)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names));
+  app.add_flag("--quick", quick, "small sweeps of seconds, to see that it works");
+  app.add_option("--out", out, "folder for tables and pictures (default: results/tradeoff)")->type_name("DIR");
+  app.add_option("--document", document, "Markdown page whose sections are replaced; pictures go to images beside it")
+      ->type_name("FILE");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    examples::prepare_folder(out);
+    for (const std::string& name : chosen) {
+      const Scale scale{.quick = quick, .out = fs::path(out) / name};
+      Scene scene;
+      if (name == "beam") scene = beam(scale);
+      if (name == "bar") scene = bar(scale);
+      if (name == "contact") scene = contact(scale);
+#ifdef TRADEOFF_SWALLOW
+      if (name == "swallow") scene = swallow(scale);
+#endif
+      const Sweep swept = sweep(scene, [](const std::string& line) { std::cerr << line << '\n'; });
+      const std::string picture = "tradeoff_" + name + ".png";
+      examples::write_atomically(fs::path(out) / (name + ".csv"), csv(scene, swept));
+      draw(scene, swept, fs::path(out) / picture);
+      const std::string text = section(scene, swept, picture);
+      examples::write_atomically(fs::path(out) / (name + ".md"), text);
+      std::cout << text << '\n';
+      if (document.empty()) continue;
+      const fs::path images = fs::path(document).parent_path() / "images";
+      examples::prepare_folder(images);
+      draw(scene, swept, images / picture);
+      // The head is today's, the other sections are those that stand there.
+      std::string old = fs::exists(document) ? examples::read_file(document) : "";
+      const auto first = old.find("<!-- begin ");
+      old = preface() + (first == std::string::npos ? "" : '\n' + old.substr(first));
+      examples::write_atomically(document, with_section(old, name, section(scene, swept, "images/" + picture)));
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "tradeoff: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
