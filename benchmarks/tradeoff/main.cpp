@@ -63,7 +63,7 @@ std::string preface() {
 int main(int argc, char** argv) {
   using namespace tradeoff;
   std::vector<std::string> names{"beam", "bar", "contact"};
-  std::string out = "results/tradeoff", document;
+  std::string out = "results/tradeoff", finer = "results/swallowing", document;
 #ifdef TRADEOFF_SWALLOW
   names.emplace_back("swallow");
 #endif
@@ -78,13 +78,17 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(names));
   app.add_flag("--quick", quick, "small sweeps of seconds, to see that it works");
   app.add_option("--out", out, "folder for tables and pictures (default: results/tradeoff)")->type_name("DIR");
+  app.add_option("--finer", finer,
+                 "folder with results of the swallow at finer spacings, with which it is compared where there are any "
+                 "(default: results/swallowing)")
+      ->type_name("DIR");
   app.add_option("--document", document, "Markdown page whose sections are replaced; pictures go to images beside it")
       ->type_name("FILE");
   CLI11_PARSE(app, argc, argv);
   try {
     examples::prepare_folder(out);
     for (const std::string& name : chosen) {
-      const Scale scale{.quick = quick, .out = fs::path(out) / name};
+      const Scale scale{.quick = quick, .out = fs::path(out) / name, .finer = finer};
       Scene scene;
       if (name == "beam") scene = beam(scale);
       if (name == "bar") scene = bar(scale);

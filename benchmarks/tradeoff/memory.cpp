@@ -10,11 +10,14 @@
 
 namespace {
 
-std::atomic<std::size_t> held{0};
+std::atomic<std::size_t> held{0}, most{0};
 
 void* count(void* memory) {
   if (memory == nullptr) throw std::bad_alloc();
-  held += malloc_usable_size(memory);
+  const std::size_t size = malloc_usable_size(memory), now = held.fetch_add(size) + size;
+  std::size_t before = most;
+  while (now > before && !most.compare_exchange_weak(before, now)) {
+  }
   return memory;
 }
 void release(void* memory) noexcept {
@@ -26,6 +29,8 @@ void release(void* memory) noexcept {
 }  // namespace
 
 std::size_t tradeoff::allocated_bytes() { return held; }
+std::size_t tradeoff::peak_bytes() { return most; }
+void tradeoff::forget_peak() { most = held.load(); }
 
 // The other forms of new and delete call these.
 void* operator new(std::size_t size) { return count(std::malloc(size > 0 ? size : 1)); }

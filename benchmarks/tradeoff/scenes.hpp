@@ -9,8 +9,9 @@ namespace tradeoff {
 
 /// How large the sweeps are, and where runs leave what takes long.
 struct Scale {
-  bool quick = false;              ///< seconds, to see that it works; its figures mean little
-  std::filesystem::path out = "";  ///< folder for results that a later sweep can read again
+  bool quick = false;                ///< seconds, to see that it works; its figures mean little
+  std::filesystem::path out = "";    ///< folder for results that a later sweep can take up
+  std::filesystem::path finer = "";  ///< folder with results of finer runs of the swallow, to compare with
 };
 
 /// The scenes. One of your own goes into a file beside beam.cpp and gets its line here and in main.cpp.

@@ -198,6 +198,8 @@ TEST(Meter, CountsTheMemoryThatIsHeld) {
   EXPECT_GE(outcome.bytes, 8000U);
   EXPECT_LT(outcome.bytes, 8100U);
   EXPECT_EQ(outcome.particle_steps, 7);
+  EXPECT_GE(meter.peak(), 808000U);
+  EXPECT_LT(meter.peak(), 820000U);
 }
 
 }  // namespace
