@@ -39,7 +39,7 @@ std::string preface() {
       "This page and its pictures are written by `benchmarks/tradeoff/run`; nothing in it is typed by hand. "
       "`benchmarks/tradeoff/run --help` lists what else it does; `results/tradeoff` gets the tables of all runs. A "
       "scene "
-      "of your own is one file beside `benchmarks/tradeoff/beam.cpp`.");
+      "of your own is one file of less than a hundred lines: start from `benchmarks/tradeoff/sag.cpp`.");
   text += '\n';
   for (
       const char* line :
@@ -62,7 +62,7 @@ std::string preface() {
 
 int main(int argc, char** argv) {
   using namespace tradeoff;
-  std::vector<std::string> names{"beam", "bar", "contact"};
+  std::vector<std::string> names{"beam", "bar", "sag", "contact"};
   std::string out = "results/tradeoff", finer = "results/swallowing", document;
 #ifdef TRADEOFF_SWALLOW
   names.emplace_back("swallow");
@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
       Scene scene;
       if (name == "beam") scene = beam(scale);
       if (name == "bar") scene = bar(scale);
+      if (name == "sag") scene = sag(scale);
       if (name == "contact") scene = contact(scale);
 #ifdef TRADEOFF_SWALLOW
       if (name == "swallow") scene = swallow(scale);

@@ -48,7 +48,7 @@ struct Outcome {
 };
 
 /// A scene to be swept. An aggregate, so that one of your own is a function that fills it in:
-/// beam.cpp and contact.cpp are examples.
+/// sag.cpp is the shortest example.
 ///
 /// `run(settings)` builds the scene from scratch, runs it and returns its `Outcome`. It throws `hmps::StateError`
 /// where the simulation broke down and `hmps::InputError` where settings do not go together; both become a line

@@ -14,9 +14,11 @@ struct Scale {
   std::filesystem::path finer = "";  ///< folder with results of finer runs of the swallow, to compare with
 };
 
-/// The scenes. One of your own goes into a file beside beam.cpp and gets its line here and in main.cpp.
+/// The scenes. One of your own goes into a file beside sag.cpp, to start from, and gets its line here, in main.cpp and
+/// in CMakeLists.txt.
 [[nodiscard]] Scene beam(const Scale& scale);
 [[nodiscard]] Scene bar(const Scale& scale);
+[[nodiscard]] Scene sag(const Scale& scale);
 [[nodiscard]] Scene contact(const Scale& scale);
 [[nodiscard]] Scene swallow(const Scale& scale);  ///< only where the example's library is built
 

@@ -87,6 +87,14 @@ TEST(Quick, HasFrontsThatAreSortedAndThatNoRunDominates) {
     }
 }
 
+TEST(Sag, ComesNearerToFiniteElementsWhenTheSpacingFalls) {
+  const Scene scene = sag({.quick = true});
+  const Settings coarse = scene.standard().with("spacing", 0.005), fine = coarse.with("spacing", 0.004);
+  const double error = std::abs(run_once(scene, fine, {}).errors[0]);
+  EXPECT_LT(error, 0.8 * std::abs(run_once(scene, coarse, {}).errors[0]));
+  EXPECT_LT(error, std::abs(run_once(scene, fine.with("E_hat", 1.), {}).errors[0])) << "the stabiliser stiffens";
+}
+
 /// A washboard or a wrong share of friction would show: with the defaults friction is right to a per cent on both
 /// walls, and with the paper's metaball it is not.
 TEST(Contact, HasTheRightFrictionOnTheSmoothWallOnly) {
