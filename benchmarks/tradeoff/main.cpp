@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Sweeps scenes over their parameters and writes what accuracy costs: see docs/tradeoff.md, which this writes.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../../examples/common/files.hpp"
@@ -18,6 +20,13 @@
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::pair<const char*, tradeoff::Scene (*)(const tradeoff::Scale&)> scenes[] = {
+    {"beam", tradeoff::beam},       {"bar", tradeoff::bar}, {"sag", tradeoff::sag}, {"contact", tradeoff::contact},
+#ifdef TRADEOFF_SWALLOW
+    {"swallow", tradeoff::swallow},
+#endif
+};
 
 /// The name that the system gives the processor.
 std::string processor() {
@@ -62,11 +71,9 @@ std::string preface() {
 
 int main(int argc, char** argv) {
   using namespace tradeoff;
-  std::vector<std::string> names{"beam", "bar", "sag", "contact"};
+  std::vector<std::string> names;
+  for (const auto& [name, make] : scenes) names.emplace_back(name);
   std::string out = "results/tradeoff", finer = "results/swallowing", document;
-#ifdef TRADEOFF_SWALLOW
-  names.emplace_back("swallow");
-#endif
   std::vector<std::string> chosen = names;
   bool quick = false;
   CLI::App app(
@@ -87,16 +94,10 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     examples::prepare_folder(out);
-    for (const std::string& name : chosen) {
-      const Scale scale{.quick = quick, .out = fs::path(out) / name, .finer = finer};
-      Scene scene;
-      if (name == "beam") scene = beam(scale);
-      if (name == "bar") scene = bar(scale);
-      if (name == "sag") scene = sag(scale);
-      if (name == "contact") scene = contact(scale);
-#ifdef TRADEOFF_SWALLOW
-      if (name == "swallow") scene = swallow(scale);
-#endif
+    for (const auto& [key, make] : scenes) {
+      const std::string name = key;
+      if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) continue;
+      const Scene scene = make({.quick = quick, .out = fs::path(out) / name, .finer = finer});
       const Sweep swept = sweep(scene, [](const std::string& line) { std::cerr << line << '\n'; });
       const std::string picture = "tradeoff_" + name + ".png";
       examples::write_atomically(fs::path(out) / (name + ".csv"), csv(scene, swept));
