@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "../../examples/common/files.hpp"
+#include "agreement.hpp"
 #include "chart.hpp"
 #include "report.hpp"
 #include "scenes.hpp"
 #include "sweep.hpp"
+#include "table.hpp"
 
 namespace {
 
@@ -50,19 +52,19 @@ std::string preface() {
       "scene "
       "of your own is one file of less than a hundred lines: start from `benchmarks/tradeoff/sag.cpp`.");
   text += '\n';
-  for (
-      const char* line :
-      {"- **Error**: signed, in per cent of the right answer, or of what the quantity is named for.",
-       "- **Particle-steps** and **memory** are counted, and the same everywhere. Memory is what the scene holds while "
-       "stepping.",
-       "- **Time** is that of one processor over that of the standard settings, each run timed beside the standard; "
-       "median of up to five. Differences below a tenth mean nothing.",
-       "- **Front**: the runs that no other run beats in error and cost at once. A run can be on it because its error "
-       "happens to cross zero; \"what to choose\" therefore names only runs that keep the error when the spacing alone "
-       "is refined.",
-       "- **take** costs less at no larger an error, or errs less at no larger a cost; **pay** errs less for more; "
-       "**save** errs more for less; **leave** gains nothing; **weigh** has one error smaller and another larger; "
-       "**avoid** does not run."})
+  for (const char* line :
+       {"- **Error**: signed, in per cent of the right answer, or of what the quantity is named for.",
+        "- **Particle-steps** and **memory** are counted, and the same everywhere. Memory is what the scene holds "
+        "while "
+        "stepping.",
+        "- **Time** is that of one processor over that of the standard settings, each run timed beside the standard; "
+        "median of up to five. Differences below a tenth mean nothing.",
+        "- **Front**: the runs that no other run beats in error and cost at once. A run can be on it because its error "
+        "happens to cross zero; \"what to choose\" therefore names runs that keep the error when the spacing alone is "
+        "refined, and says where none was.",
+        "- **take** costs less at no larger an error, or errs less at no larger a cost; **pay** errs less for more; "
+        "**save** errs more for less; **leave** gains nothing; **weigh** has one error smaller and another larger; "
+        "**avoid** does not run."})
     text += tradeoff::wrapped(line, "  ");
   return text + '\n' + tradeoff::wrapped("Compiled by " + std::string(compiler) + ", run on " + processor() + ".");
 }
@@ -75,7 +77,7 @@ int main(int argc, char** argv) {
   for (const auto& [name, make] : scenes) names.emplace_back(name);
   std::string out = "results/tradeoff", finer = "results/swallowing", document;
   std::vector<std::string> chosen = names;
-  bool quick = false;
+  bool quick = false, tables = false;
   CLI::App app(
       "Sweeps scenes over spacing, step, scalar and more, and writes the front of error against cost as CSV,\n"
       "picture and sentences.",
@@ -84,6 +86,7 @@ int main(int argc, char** argv) {
       ->type_name("NAME")
       ->check(CLI::IsMember(names));
   app.add_flag("--quick", quick, "small sweeps of seconds, to see that it works");
+  app.add_flag("--tables", tables, "run nothing: write pictures and page anew from the tables in --out");
   app.add_option("--out", out, "folder for tables and pictures (default: results/tradeoff)")->type_name("DIR");
   app.add_option("--finer", finer,
                  "folder with results of the swallow at finer spacings, with which it is compared where there are any "
@@ -94,26 +97,38 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     examples::prepare_folder(out);
+    // What stands in the page of scenes that are not swept stays.
+    std::string page = preface();
+    if (!document.empty() && fs::exists(document)) {
+      const std::string old = examples::read_file(document);
+      if (const auto first = old.find("<!-- begin "); first != std::string::npos) page += '\n' + old.substr(first);
+    }
+    if (page.find("<!-- begin agreement -->") == std::string::npos) page = with_section(page, "agreement", "");
+    std::vector<Swept> all;
     for (const auto& [key, make] : scenes) {
-      const std::string name = key;
-      if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) continue;
+      const std::string name = key, picture = "tradeoff_" + name + ".png";
+      const bool wanted = std::find(chosen.begin(), chosen.end(), name) != chosen.end();
+      const fs::path table = fs::path(out) / (name + ".csv");
+      const bool run = wanted && !tables;
+      if (!run && !fs::exists(table)) continue;
       const Scene scene = make({.quick = quick, .out = fs::path(out) / name, .finer = finer});
-      const Sweep swept = sweep(scene, [](const std::string& line) { std::cerr << line << '\n'; });
-      const std::string picture = "tradeoff_" + name + ".png";
-      examples::write_atomically(fs::path(out) / (name + ".csv"), csv(scene, swept));
+      if (run) {
+        const Sweep swept = sweep(scene, [](const std::string& line) { std::cerr << line << '\n'; });
+        examples::write_atomically(table, csv(scene, swept));
+      }
+      all.push_back({scene, read_csv(scene, examples::read_file(table))});
+      if (!wanted) continue;
+      const Sweep& swept = all.back().sweep;
       draw(scene, swept, fs::path(out) / picture);
-      const std::string text = section(scene, swept, picture);
-      examples::write_atomically(fs::path(out) / (name + ".md"), text);
+      const std::string text = section(scene, swept, "images/" + picture);
       std::cout << text << '\n';
+      page = with_section(page, name, text);
       if (document.empty()) continue;
       const fs::path images = fs::path(document).parent_path() / "images";
       examples::prepare_folder(images);
       draw(scene, swept, images / picture);
-      // The head is today's, the other sections are those that stand there.
-      std::string old = fs::exists(document) ? examples::read_file(document) : "";
-      const auto first = old.find("<!-- begin ");
-      old = preface() + (first == std::string::npos ? "" : '\n' + old.substr(first));
-      examples::write_atomically(document, with_section(old, name, section(scene, swept, "images/" + picture)));
+      if (all.size() > 1) page = with_section(page, "agreement", agreement(all));
+      examples::write_atomically(document, page);
     }
   } catch (const std::exception& error) {
     std::cerr << "tradeoff: " << error.what() << '\n';

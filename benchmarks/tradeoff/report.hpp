@@ -6,46 +6,13 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <vector>
 
-#include "../../examples/common/csv_writer.hpp"
 #include "rules.hpp"
 #include "sweep.hpp"
 
-/// A sweep as a table of comma-separated values and as a section of a page.
+/// A sweep as a section of a page in Markdown.
 namespace tradeoff {
-
-/// All runs, one a line: settings in SI units, values, right answers, errors in per cent, costs, why it failed.
-[[nodiscard]] inline std::string csv(const Scene& scene, const Sweep& sweep) {
-  const auto quoted = [](std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text) (out += c) += c == '"' ? "\"" : "";
-    return out + '"';
-  };
-  std::string text;
-  for (const Parameter& p : scene.parameters) text += p.name + ',';
-  for (const Quantity& q : scene.quantities)
-    text += quoted(q.name + (q.unit.empty() ? "" : " (" + q.unit + ")")) + ',' + quoted(q.name + ", right answer") +
-            ',' + quoted(q.name + ", error (%)") + ',';
-  text += "particle_steps,seconds,seconds_over_standard,bytes,failure\n";
-  for (const Trial& run : sweep.runs) {
-    for (const Parameter& p : scene.parameters) {
-      const Value& value = run.settings.at(p.name);
-      const auto* word = std::get_if<std::string>(&value);
-      text += (word != nullptr ? *word : examples::to_text(std::get<double>(value))) + ',';
-    }
-    for (std::size_t q = 0; q < scene.quantities.size(); ++q)
-      text += run.failed() ? ",,,"
-                           : examples::to_text(run.outcome.values[q]) + ',' + examples::to_text(run.exact[q]) + ',' +
-                                 examples::to_text(run.errors[q]) + ',';
-    text += run.failed()
-                ? ",,,," + quoted(run.failure)
-                : examples::to_text(run.outcome.particle_steps) + ',' + examples::to_text(run.outcome.seconds) + ',' +
-                      examples::to_text(run.relative_seconds) + ',' + std::to_string(run.outcome.bytes) + ',';
-    text += '\n';
-  }
-  return text;
-}
 
 /// `text` in lines of at most 120 characters, all but the first behind `indent`.
 [[nodiscard]] inline std::string wrapped(const std::string& text, const std::string& indent = "") {
@@ -102,9 +69,7 @@ namespace detail {
               rounded(standard.outcome.seconds, 2) + " s of one processor here and " +
               bytes(static_cast<double>(standard.outcome.bytes)) + ". " + std::to_string(sweep.runs.size()) + " runs.";
   text += '\n' + wrapped(settings);
-  if (!sweep.reference.empty())
-    text += '\n' + wrapped("Reference: " + scene.difference(*scene.reference, standard.settings) + "; " +
-                           counted(sweep.reference_steps) + " particle-steps.");
+  if (!scene.known) text += '\n' + wrapped("Reference: " + scene.difference(*scene.reference, standard.settings) + ".");
   text += "\n![Error against cost of all runs, and the fronts](" + picture + ")\n\n### What to choose\n\n" +
           detail::list(target_rules(scene, sweep)) + "\n### What refinement costs\n\n" +
           detail::list(halving_rules(scene, sweep)) + "\n### What each setting does\n\n" +

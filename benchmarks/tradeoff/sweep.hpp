@@ -29,8 +29,6 @@ struct Trial {
 /// A scene that was swept. The first run is the standard.
 struct Sweep {
   std::vector<Trial> runs;
-  std::vector<double> reference;  ///< what the reference gave, if the right answer is not known
-  double reference_steps = 0;     ///< its particle-steps
 
   [[nodiscard]] const Trial& standard() const { return runs.front(); }
   /// The run of these settings, or nullptr.
@@ -143,15 +141,14 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
   Sweep result;
   hmps::require(scene.known != nullptr || scene.reference.has_value(), "tradeoff: the scene ", scene.name,
                 " has neither known answers nor a reference; give one");
+  std::vector<double> reference;
   if (!scene.known) {
-    const Outcome reference = scene.run(*scene.reference);
-    detail::check(scene, *scene.reference, reference.values, "values of the reference");
-    result.reference = reference.values;
-    result.reference_steps = reference.particle_steps;
+    reference = scene.run(*scene.reference).values;
+    detail::check(scene, *scene.reference, reference, "values of the reference");
   }
   const std::vector<Settings> all = plan(scene);
   for (const Settings& settings : all) {
-    Trial run = run_once(scene, settings, result.reference);
+    Trial run = run_once(scene, settings, reference);
     const bool first = result.runs.empty();
     hmps::require(!first || !run.failed(), "tradeoff: the standard of the scene ", scene.name,
                   " failed: ", run.failure);

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "agreement.hpp"
 #include "meter.hpp"
 #include "report.hpp"
 #include "rules.hpp"
+#include "table.hpp"
 
 namespace {
 
@@ -127,6 +129,17 @@ TEST(Rules, AdviseNoRunWhoseErrorOnlyCrossesZero) {
   EXPECT_TRUE(holds(scene, result, result.standard(), 0, 2.01));
   EXPECT_FALSE(holds(scene, result, result.standard(), 0, 1.99));
 }
+/// 2 % would be kept by h = 0.2, which h = 0.1 confirms, and sooner by the same in float, which nothing does.
+TEST(Rules, PreferARunThatAFinerOneConfirms) {
+  const Scene scene = formula();
+  const auto sentences = target_rules(scene, swept(scene));
+  ASSERT_EQ(sentences.size(), 3U);
+  EXPECT_TRUE(holds_text(sentences[0], "%**: h 0.4;")) << sentences[0];
+  EXPECT_TRUE(holds_text(sentences[1], "%**: the standard;")) << sentences[1];
+  EXPECT_TRUE(holds_text(sentences[2], "%**: h 0.1;")) << sentences[2];
+  EXPECT_TRUE(holds_text(sentences[2], "nothing finer")) << sentences[2];
+  EXPECT_FALSE(holds_text(sentences[1], "nothing finer")) << sentences[1];
+}
 TEST(Rules, SayWhatHalvingCosts) {
   const Scene scene = formula();
   const auto sentences = halving_rules(scene, swept(scene));
@@ -161,6 +174,61 @@ TEST(Csv, HasALineForEachRunAndQuotesWords) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 8);
   EXPECT_TRUE(holds_text(text, "\"a \"\"bad\"\", bad end\"\n"));
   EXPECT_TRUE(holds_text(text, "0.1,0,double,2.01,2,"));
+}
+TEST(Csv, ReadsBackToTheSameSweep) {
+  Scene scene = formula();
+  const auto run = scene.run;
+  scene.run = [run](const Settings& s) {
+    if (s.word("scalar") == "half") throw hmps::StateError("a \"bad\",\nbad end");
+    return run(s);
+  };
+  const Sweep before = swept(scene), after = read_csv(scene, csv(scene, before));
+  ASSERT_EQ(after.runs.size(), before.runs.size());
+  for (std::size_t i = 0; i < before.runs.size(); ++i) {
+    const Trial &a = before.runs[i], &b = after.runs[i];
+    EXPECT_EQ(a.settings, b.settings);
+    EXPECT_EQ(a.failure, b.failure);
+    EXPECT_EQ(a.errors, b.errors);
+    EXPECT_EQ(a.outcome.values, b.outcome.values);
+    EXPECT_EQ(a.outcome.bytes, b.outcome.bytes);
+    EXPECT_EQ(a.relative_seconds, b.failed() ? a.relative_seconds : b.relative_seconds);
+  }
+  EXPECT_EQ(section(scene, after, "x.png"), section(scene, before, "x.png"));
+}
+TEST(Csv, RefusesTheTableOfAnotherScene) {
+  const Scene scene = formula();
+  const std::string text = csv(scene, swept(scene));
+  Scene other = scene;
+  other.parameters.pop_back();
+  EXPECT_THROW((void)read_csv(other, text), hmps::InputError);
+  other = scene;
+  other.parameters[0].standard = 0.4;
+  EXPECT_THROW((void)read_csv(other, text), hmps::InputError);
+  EXPECT_THROW((void)read_csv(scene, ""), hmps::InputError);
+  EXPECT_THROW((void)read_csv(scene, text + "x,0,double,1,1,1,1,1,1,1,\n"), hmps::InputError);
+}
+
+TEST(Agreement, SaysWhereScenesDifferAndLeavesOutWhatOneAloneTried) {
+  Scene one = formula(), other = formula();
+  other.name = "other";
+  other.parameters[2].values = {"double", "float"};
+  other.run = [](const Settings& s) {  // the bias makes it better, float worse
+    const double error = 0.4 + s.number("bias") + (s.word("scalar") == "float" ? 1 : 0);
+    return Outcome{{2 + error}, 1, s.word("scalar") == "float" ? 0.5 : 1, 1};
+  };
+  const std::string text = agreement({{one, swept(one)}, {other, swept(other)}});
+  const auto after = [&](const char* title, const char* line) {
+    const auto from = text.find(title), to = text.find("###", from + 3);
+    return from != std::string::npos && holds_text(text.substr(from, to - from), line);
+  };
+  EXPECT_TRUE(after("### Errs more",
+                    "scalar float instead of double, at 0.5 times the time (other: the answer from 20 to 70 %)"))
+      << text;
+  EXPECT_TRUE(after("### Errs less here and more there", "bias -0.16 instead of 0, at 1 times the time")) << text;
+  EXPECT_FALSE(holds_text(text, "half")) << "only one scene tried it";
+  const std::string same = agreement({{one, swept(one)}, {one, swept(one)}});
+  EXPECT_TRUE(holds_text(same, "### Makes no difference to errors\n\n- scalar float")) << same;
+  EXPECT_TRUE(holds_text(same, "### Breaks down\n\n- scalar half instead of double (formula, formula)")) << same;
 }
 TEST(Page, ReplacesItsOwnSectionOnly) {
   const std::string one = with_section("# Page\n", "a", "first\n");
