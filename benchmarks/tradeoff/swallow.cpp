@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Case X1 of the swallow of examples/swallowing, by its own parts: when does the epiglottis fold, and how far?
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "../../examples/swallowing/run_case.hpp"
+#include "meter.hpp"
+#include "scenes.hpp"
+
+namespace tradeoff {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* which = "X1";
+
+/// Runs the case into `folder`. What was run there with the same settings is taken up where it ended, so that a
+/// sweep can be interrupted; what was run with others, or with other tracks of the motion, is replaced.
+swallowing::Summary run_into(const fs::path& folder, swallowing::Options options) {
+  options.out = folder.string();
+  options.cases = {which};
+  options.frames = false;
+  options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const swallowing::Case& chosen = swallowing::find_case(which);
+  options.resume = fs::exists(folder / which / "checkpoint.bin");
+  if (!options.resume) return run_case(options, chosen);
+  try {
+    return run_case(options, chosen);
+  } catch (const hmps::InputError&) {
+    options.resume = false;
+    return run_case(options, chosen);
+  }
+}
+
+Outcome swallow_once(const Settings& settings, const Scale& scale, double until) {
+  Meter meter;
+  swallowing::Options options;
+  options.spacing = settings.number("spacing");
+  options.single_precision = settings.word("scalar") == "float";
+  options.lattice_shift = settings.number("lattice shift");
+  options.penalty = settings.number("pressure per penetration") / options.spacing;
+  options.until = until;
+  std::string name = settings.word("scalar");
+  for (const char* number : {"spacing", "step", "pressure per penetration", "lattice shift"})
+    (name += '_') += rounded(settings.number(number), 6);
+  const fs::path folder = scale.out / name;
+
+  // The automatic step is known once the scene is built.
+  if (const double share = settings.number("step"); share != 1) {
+    swallowing::Options shortest = options;
+    shortest.until = 1e-9;
+    options.time_step = share * run_into(scale.out / "automatic_step" / name, shortest).time_step;
+  }
+  const swallowing::Summary summary = run_into(folder, options);
+  if (summary.failure) throw hmps::StateError(*summary.failure);
+  Outcome outcome = meter.outcome({});
+  outcome.bytes = meter.peak();
+  outcome.seconds = summary.wall_seconds;
+  outcome.particle_steps =
+      static_cast<double>(summary.steps) * static_cast<double>(summary.particles_free + summary.particles_control);
+  if (!scale.quick) {
+    if (!summary.fold_time)
+      throw hmps::StateError("the epiglottis does not fold; its smallest angle is " + rounded(summary.tip_angle_min) +
+                             " degrees");
+    outcome.values.push_back(*summary.fold_time);
+  }
+  outcome.values.push_back(summary.tip_angle_min);
+  return outcome;
+}
+
+/// The finest result of the whole case below `folder`, if one is finer than `spacing`.
+std::optional<swallowing::Summary> finer_result(const fs::path& folder, double spacing) {
+  std::optional<swallowing::Summary> finest;
+  if (!fs::is_directory(folder)) return finest;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().filename() != "summary.json") continue;
+    const auto found = swallowing::read_summary(entry.path());
+    const bool whole = found && found->case_name == which && !found->failure && found->fold_time;
+    if (whole && found->friction == swallowing::find_case(which).friction && found->spacing < 0.999 * spacing &&
+        (!finest || found->spacing < finest->spacing))
+      finest = found;
+  }
+  return finest;
+}
+
+}  // namespace
+
+Scene swallow(const Scale& scale) {
+  const double until = scale.quick ? 2e-3 : swallowing::end_of_swallow;
+  std::vector<Value> spacings{2.4e-3, 1.8e-3};
+  if (scale.quick) spacings = {2.4e-3};
+  Scene scene{
+      .name = "swallow",
+      .title = "The swallow",
+      .description =
+          "Case X1 of `examples/swallowing`, on all cores. The time of downfolding is in seconds, so that 1 % "
+          "of error is 10 ms; the smallest angle of the tip is in hundreds of degrees, so that 1 % is one "
+          "degree. The step is given over the automatic one. Time is by the wall clock, of one run each; "
+          "memory is the most that was allocated, building the scene included.",
+      .quantities = {{.name = "the time of downfolding", .unit = "s", .scale = 1},
+                     {.name = "the smallest angle of the tip", .unit = "degrees", .scale = 100}},
+      .parameters =
+          {{.name = "spacing", .values = spacings, .standard = 2.4e-3, .unit = "mm", .per_unit = 1e-3, .refines = true},
+           {.name = "scalar", .values = {"float", "double"}, .standard = "float"},
+           {.name = "step", .values = {1., 0.5}, .standard = 1.},
+           {.name = "pressure per penetration",
+            .values = {2e8, 4e8},
+            .standard = 2e8,
+            .unit = "kPa/mm",
+            .per_unit = 1e6},
+           {.name = "lattice shift", .values = {0., 0.5}, .standard = 0., .unit = "l0", .choice = false}},
+      .crossed = {"spacing", "scalar"},
+      .run = [scale, until](const Settings& settings) { return swallow_once(settings, scale, until); },
+      .repeats = 0};
+  if (scale.quick) {
+    scene.quantities.erase(scene.quantities.begin());
+    for (const char* kept : {"step", "pressure per penetration", "lattice shift"})
+      for (Parameter& p : scene.parameters)
+        if (p.name == kept) p.values = {p.standard};
+    scene.crossed.clear();
+    scene.reference = scene.standard().with("scalar", "double");
+    return scene;
+  }
+  if (const auto finer = finer_result(scale.finer, 1.8e-3)) {
+    const std::vector<double> answer{*finer->fold_time, finer->tip_angle_min};
+    scene.known = [answer](const Settings&) { return answer; };
+    scene.description += " It is compared with a run at " + rounded(1e3 * finer->spacing) + " mm in " + finer->scalar +
+                         ", which took " + rounded(finer->wall_seconds / 60, 2) + " minutes.";
+  } else {
+    scene.reference = scene.standard().with("spacing", 1.8e-3).with("scalar", "double");
+    scene.description += " It is compared with its own finest run, for want of a finer one below results/swallowing.";
+  }
+  return scene;
+}
+
+}  // namespace tradeoff
