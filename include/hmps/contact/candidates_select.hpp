@@ -100,7 +100,7 @@ void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
         }
         change = S(0.5) * std::sqrt(change) * stretch.lane[l] * stretch.lane[l];
         late_here = late_here || (built_ && rows_of_begin_[i] < rows_of_begin_[i + 1] && change > strain_[i]);
-        strain_[i] = built_ ? std::max(least_strain, S(4) * longer * change) : first_strain;
+        strain_[i] = built_ ? std::max({least_strain, S(4) * longer * change, S(0.5) * strain_[i]}) : first_strain;
         const S reach = radius_ * stretch.lane[l];
         reach_[i] = reach;
         // A master that is squashed flat is no wall.
