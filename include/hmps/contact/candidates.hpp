@@ -56,8 +56,8 @@ template <class T, int D>
 /// much. Most of its rows sleep: a check bounds how far the particles of a row may move before its slave
 /// could touch. From then on every call looks how far each particle has truly moved since the check, and
 /// wakes the rows for which that is too far; what is awake makes up the inner list. A check is due when
-/// the rows woken since the last one have cost as much as it does, and after `longest_nap` calls, for
-/// deformation gradients change too.
+/// the rows woken since the last one have cost as much as it does, and after `longest_nap` calls (fewer
+/// where much is awake), for deformation gradients change too.
 ///
 /// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when
 /// lists were made.
@@ -161,6 +161,8 @@ class Candidates {
     Index slave, master;
   };
 
+  /// In evaluations of one candidate.
+  [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle_.size(); }
   void add_side(std::size_t slaves, std::size_t masters);
   void number();
   template <class X, class Gradients, class E>
@@ -202,7 +204,7 @@ class Candidates {
   std::vector<Index> rows_of_begin_, rows_of_;  // the outer rows that each particle is in
   // Scratch.
   std::vector<Index> awake_of_, next_;
-  std::size_t particles_ = 0, age_ = 0, woken_ = 0, woken_work_ = 0;
+  std::size_t particles_ = 0, age_ = 0, nap_ = longest_nap, woken_ = 0, woken_work_ = 0;
   bool built_ = false;
 };
 

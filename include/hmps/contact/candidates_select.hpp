@@ -9,11 +9,9 @@ namespace hmps::detail {
 template <class S, int D, Metaball Ball>
 template <class X, class Gradients, class E>
 bool Candidates<S, D, Ball>::update(const X& x, const Gradients& F, const E& execute) {
-  // The cost of a check, in evaluations of one candidate.
-  const std::size_t cost = outer_master_.size() / 2 + 2 * particle_.size();
   woken_work_ += woken_;
   const std::size_t woken_before = woken_;
-  if (!built_ || ++age_ >= longest_nap || woken_work_ > cost || !watch(x, execute)) {
+  if (!built_ || ++age_ >= nap_ || woken_work_ > cost_of_check() || !watch(x, execute)) {
     check(x, F, execute);
     return true;
   }
@@ -59,6 +57,8 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   }
   age_ = woken_ = woken_work_ = 0;
   select();
+  // Sharper lists are worth about a tenth of what is spent on evaluating them.
+  nap_ = std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), 8, longest_nap);
 }
 
 /// How much of its limit a side has used up since the outer list was built.
@@ -86,7 +86,7 @@ void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
         const std::size_t i = begin + l;
         const Point place = x[particle_[i]].template cast<S>();
-        const S longer = static_cast<S>(longest_nap) / static_cast<S>(std::max<std::size_t>(age_, 1));
+        const S longer = static_cast<S>(nap_) / static_cast<S>(std::max<std::size_t>(age_, 1));
         bound_[i] = built_ ? least_motion * normal_density.spacing() + S(2) * longer * (place - place_[i]).norm()
                            : std::numeric_limits<S>::max();
         place_[i] = place;
@@ -100,7 +100,7 @@ void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
         }
         change = S(0.5) * std::sqrt(change) * stretch.lane[l] * stretch.lane[l];
         late_here = late_here || (built_ && rows_of_begin_[i] < rows_of_begin_[i + 1] && change > strain_[i]);
-        strain_[i] = built_ ? std::max(least_strain, S(4) * longer * change) : first_strain;
+        strain_[i] = built_ ? std::max({least_strain, S(4) * longer * change, S(0.5) * strain_[i]}) : first_strain;
         const S reach = radius_ * stretch.lane[l];
         reach_[i] = reach;
         // A master that is squashed flat is no wall.

@@ -49,8 +49,8 @@ struct ContactReport {
   Index deepest = 0;           ///< Its slave.
   std::size_t candidates = 0;  ///< Slave-master pairs that were looked at.
   std::size_t rebuilds = 0;    ///< How often the grid search ran so far.
-  /// How often so far strains turned out to have changed by more than five per cent between two checks of
-  /// the lists, so that a touch may have been seen a few steps late. Zero in a sane run.
+  /// How many checks of the lists so far found some strain to have changed by more than they allow for, so
+  /// that a touch could have been seen a few steps late. Zero or rare unless a run chatters.
   std::size_t late = 0;
 };
 
