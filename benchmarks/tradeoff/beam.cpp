@@ -144,34 +144,37 @@ Scene vibration(const Scale& scale, End held) {
     return std::vector<double>{timoshenko_frequency(beam_of(settings), held), 0};
   };
   std::vector<Value> spacings{0.025, 0.05 / 3, 0.0125, 0.01, 0.00625, 0.005}, moduli{0., 0.1, 0.25, 0.5, 1.};
+  std::vector<Value> shares{0.25, 0.5, 0.75, 0.95, 1.05}, bulk{1 / 1.2, 10., 33.};
   if (scale.quick) {
     spacings = {0.025, 0.05 / 3, 0.0125};
     moduli = {0.5, 1.};
+    shares = {0.75, 0.95, 1.05};
+    bulk = {1 / 1.2};
   }
   std::vector<std::string> crossed{"spacing", "E_hat"};
   if (!scale.quick) crossed.emplace_back("scalar");
-  return {
-      .name = "",
-      .title = "",
-      .description = "",
-      .quantities = {{.name = "the frequency", .unit = "Hz"}, {.name = "the energy", .scale = 1, .matters = 0.02}},
-      .parameters =
-          {{.name = "spacing",
-            .values = spacings,
-            .standard = scale.quick ? 0.0125 : 0.01,
-            .unit = "mm",
-            .per_unit = 1e-3,
-            .refines = true},
-           {.name = "E_hat", .values = moduli, .standard = 0.5, .unit = "E"},
-           {.name = "scalar", .values = {"double", "mixed", "float"}, .standard = "double"},
-           {.name = "step", .values = {0.25, 0.5, 0.75, 0.95, 1.05}, .standard = 0.75},
-           {.name = "r_e", .values = {1.5, 1.75, 2.1, 2.5}, .standard = 1.75, .unit = "l0"},
-           {.name = "bulk modulus", .values = {1 / 1.2, 10., 33.}, .standard = 1 / 1.2, .unit = "E", .choice = false},
-           {.name = "integrator", .values = {"symplectic Euler", "velocity Verlet"}, .standard = "symplectic Euler"}},
-      .crossed = crossed,
-      .run = run,
-      .known = known,
-      .repeats = scale.quick ? 1 : 5};
+  return {.name = "",
+          .title = "",
+          .description = "",
+          .quantities = {{.name = "the frequency", .unit = "Hz"}, {.name = "the energy", .scale = 1, .matters = 0.02}},
+          .parameters = {{.name = "spacing",
+                          .values = spacings,
+                          .standard = scale.quick ? 0.0125 : 0.01,
+                          .unit = "mm",
+                          .per_unit = 1e-3,
+                          .refines = true},
+                         {.name = "E_hat", .values = moduli, .standard = 0.5, .unit = "E"},
+                         {.name = "scalar", .values = {"double", "mixed", "float"}, .standard = "double"},
+                         {.name = "step", .values = shares, .standard = 0.75},
+                         {.name = "r_e", .values = {1.5, 1.75, 2.1, 2.5}, .standard = 1.75, .unit = "l0"},
+                         {.name = "bulk modulus", .values = bulk, .standard = 1 / 1.2, .unit = "E", .choice = false},
+                         {.name = "integrator",
+                          .values = {"symplectic Euler", "velocity Verlet"},
+                          .standard = "symplectic Euler"}},
+          .crossed = crossed,
+          .run = run,
+          .known = known,
+          .repeats = scale.quick ? 1 : 5};
 }
 
 const std::string body =

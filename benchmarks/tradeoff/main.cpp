@@ -87,13 +87,17 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(names));
   app.add_flag("--quick", quick, "small sweeps of seconds, to see that it works");
   app.add_flag("--tables", tables, "run nothing: write pictures and page anew from the tables in --out");
-  app.add_option("--out", out, "folder for tables and pictures (default: results/tradeoff)")->type_name("DIR");
+  app.add_option("--out", out, "folder for tables and pictures (default: results/tradeoff)")
+      ->type_name("DIR")
+      ->take_last();
   app.add_option("--finer", finer,
                  "folder with results of the swallow at finer spacings, with which it is compared where there are any "
                  "(default: results/swallowing)")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->take_last();
   app.add_option("--document", document, "Markdown page whose sections are replaced; pictures go to images beside it")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->take_last();
   CLI11_PARSE(app, argc, argv);
   try {
     examples::prepare_folder(out);
