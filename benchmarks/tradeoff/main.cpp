@@ -54,9 +54,7 @@ std::string preface() {
   text += '\n';
   for (const char* line :
        {"- **Error**: signed, in per cent of the right answer, or of what the quantity is named for.",
-        "- **Particle-steps** and **memory** are counted, and the same everywhere. Memory is what the scene holds "
-        "while "
-        "stepping.",
+        "- **Particle-steps** and **memory** are counted, not timed. Memory is what the scene holds while stepping.",
         "- **Time** is that of one processor over that of the standard settings, each run timed beside the standard; "
         "median of up to five. Differences below a tenth mean nothing.",
         "- **Front**: the runs that no other run beats in error and cost at once. A run can be on it because its error "
