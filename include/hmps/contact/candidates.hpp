@@ -15,6 +15,7 @@
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/lanes.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -28,27 +29,41 @@ struct Undeformed {
   [[nodiscard]] Matrix<S, D> operator[](std::size_t) const { return Matrix<S, D>::Identity(); }
 };
 
-/// An upper bound of the largest singular value of F, exact in 2D and for equal stretches: mean plus
-/// sqrt(D - 1) standard deviations of the eigenvalues of F^T F (Wolkowicz and Styan 1980).
-template <class S, int D>
-[[nodiscard]] S stretch_bound(const Matrix<S, D>& F) {
-  const Matrix<S, D> C = F.transpose().lazyProduct(F);
-  const S mean = C.trace() / S(D);
-  const S variance = (C - mean * Matrix<S, D>::Identity()).squaredNorm() / S(D);
-  return std::sqrt(mean + std::sqrt(S(D - 1) * variance));
+/// The deformation gradients of the particles `particle(l)`, one in each lane.
+template <class S, int D, class Gradients, class Particle>
+[[nodiscard]] HMPS_INLINE Matrix<Lanes<S>, D> gather_gradients(const Gradients& F, Particle&& particle) {
+  Matrix<Lanes<S>, D> lanes;
+  for (int l = 0; l < Lanes<S>::width; ++l) {
+    const Matrix<S, D> own = F[particle(static_cast<std::size_t>(l))].template cast<S>();
+    for (int c = 0; c < D * D; ++c) lanes(c % D, c / D).lane[l] = own(c % D, c / D);
+  }
+  return lanes;
 }
 
-/// Which slaves may meet which masters. Two lists, each a superset of what touches:
-/// - the outer one holds pairs within reach plus `skin`; built by a grid search when an organ pair has
-///   moved or a reach has grown by that much;
-/// - the inner one holds those of them within reach plus `margin`, by true distances, and of those
-///   only the slaves that could touch if all masters were nearer by `margin`; chosen anew after as
-///   many calls as the present speeds allow twice over (at most `longest_nap`), or at once when a
-///   master on it has used up its share of the margin.
-/// What is not on the inner list sleeps. All orders follow the particles' indices, so sums over the
-/// pairs that touch do not depend on when lists were made.
+/// An upper bound of the largest singular value of F, exact in 2D and for equal stretches: mean plus
+/// sqrt(D - 1) standard deviations of the eigenvalues of F^T F (Wolkowicz and Styan 1980).
+template <class T, int D>
+[[nodiscard]] HMPS_INLINE T stretch_bound(const Matrix<T, D>& F) {
+  using std::sqrt;
+  Matrix<T, D> C = right_cauchy_green<T, D>(F);
+  const T mean = trace<T, D>(C) * T(1. / D);
+  for (int c = 0; c < D; ++c) C(c, c) = C(c, c) - mean;
+  return sqrt(mean + sqrt(contract<T, D>(C, C) * T((D - 1.) / D)));
+}
+
+/// Which slaves may meet which masters. The outer list holds the pairs within reach plus `skin`, in rows
+/// of one slave each; a grid search makes it, whenever organs have moved or a reach has grown by that
+/// much. Most of its rows sleep: a check bounds how far the particles of a row may move before its slave
+/// could touch. From then on every call looks how far each particle has truly moved since the check, and
+/// wakes the rows for which that is too far; what is awake makes up the inner list. A check is due when
+/// the rows woken since the last one have cost as much as it does, and after `longest_nap` calls (fewer
+/// where much is awake), for deformation gradients change too.
 ///
-/// A row is a slave of one side (an ordered pair of organs); a slot is a master of some row.
+/// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when
+/// lists were made.
+///
+/// The particles of all organs are numbered once each, in the order of their indices; a member is such
+/// a particle in one organ. A row is a slave of one side (an ordered pair of organs).
 template <class S, int D, Metaball Ball>
 class Candidates {
  public:
@@ -58,7 +73,7 @@ class Candidates {
   struct OrganRange {
     std::string name;
     std::size_t begin, end;  // of members
-    Point moved;             // mean displacement since the outer lists were built
+    Point moved;             // mean displacement since the outer list was built
     S motion, growth;        // largest displacement beyond it, largest growth of a reach
   };
   struct Side {
@@ -72,15 +87,15 @@ class Candidates {
     std::function<bool(Index, Index)> excluded;
   };
   struct Row {
-    Index particle, touched;
+    Index slave;  // of the awake particles
     std::uint32_t side;
-    Index begin;    // of its candidates; the next row's is the end
+    Index begin;    // of its candidates
     S compression;  // bound of |F_j^-1| of its masters until the next check
   };
-  struct Touched {
+  struct Awake {
     Index particle;
     std::uint8_t flags;
-    Index rows, slots;  // ends in touched_rows, touched_slots
+    Index rows, entries;  // begins of its rows as a slave in slave_rows, of its entries as a master
   };
 
   NormalDensity<S, D, Ball> normal_density;
@@ -88,15 +103,13 @@ class Candidates {
   std::vector<Pair> pairs;
   std::vector<Side> sides;
 
-  // The inner list.
-  std::vector<Row> rows;       // one more at the end
-  std::vector<Index> slot_of;  // per candidate
-  std::vector<Index> slot_member, slot_particle, slot_touched;
-  std::vector<Index> slot_begin;  // into slot_rows
-  std::vector<Index> slot_rows;   // what refers to a slot, rows ascending
-  std::vector<Index> entry_of;    // per candidate, its place in slot_rows
-  std::vector<Touched> touched;   // every particle of rows and slots once
-  std::vector<Index> touched_rows, touched_slots;
+  // The inner list. `rows` and `awake` hold one more at the end, where the last one's ends begin.
+  std::vector<Row> rows;
+  std::vector<Awake> awake;       // every particle of its rows once
+  std::vector<Index> master_of;   // per candidate, one of the awake particles
+  std::vector<Index> entry_of;    // per candidate, its place among the entries of its master
+  std::vector<Index> entry_rows;  // per entry, the row of that candidate: ascending for each master
+  std::vector<Index> slave_rows;  // the rows of each slave, ascending
   std::size_t rebuilds = 0, checks = 0, late = 0;
 
   /// `spacing` and `skin` in m.
@@ -110,81 +123,88 @@ class Candidates {
   /// Number of particles that the views must hold at least.
   [[nodiscard]] std::size_t particles() const { return particles_; }
 
-  /// Keeps the lists valid for this call; true if the inner one was chosen anew.
-  template <class X, class V, class Gradients, class E>
-  bool update(const X& x, const V& v, const Gradients& F, S dt, const E& execute) {
-    if (built_ && naps_ > 0 && !probe(x)) {
-      --naps_;
-      return false;
-    }
-    check(x, v, F, dt, execute);
-    return true;
-  }
+  /// Keeps the lists valid for this call; true if the inner one has changed.
+  template <class X, class Gradients, class E>
+  bool update(const X& x, const Gradients& F, const E& execute);
 
-  /// Chooses the inner list anew, and the outer one where needed.
-  template <class X, class V, class Gradients, class E>
-  void check(const X& x, const V& v, const Gradients& F, S dt, const E& execute);
-
-  /// Whether the particle of `slot`, now at `place`, has used up its half of the margin.
-  [[nodiscard]] bool strayed(std::size_t slot, const Point& place) const {
-    return (place - place_[slot_member[slot]]).squaredNorm() > stray_squared_;
-  }
+  /// Measures all organs, builds the outer list anew where needed, and puts to sleep what can sleep.
+  template <class X, class Gradients, class E>
+  void check(const X& x, const Gradients& F, const E& execute);
 
  private:
-  static constexpr std::size_t chunk = 512, longest_nap = 63;
+  static constexpr std::size_t chunk = 512, longest_nap = 64;
   static constexpr Index none = std::numeric_limits<Index>::max();
-  struct Partial {
+  // What a particle may do until the next check: a multiple of what it did since the last, but this at least
+  // (motion in spacings; strain as a share by which lengths measured by A change).
+  static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05);
+  struct Member {
+    Index particle, number;
+    std::uint8_t flags;
+  };
+  struct Part {  // of an organ's members
     std::size_t organ, begin, end;
-    S motion, growth, speed, step, step_growth;
+    S motion, growth;
     Point sum;
   };
+  struct Watch {  // of particles
+    std::size_t strayed;
+    bool far, late;
+  };
   struct OuterRow {
-    Index particle, unique;
+    Index slave;  // of the numbered particles
     std::uint32_t side;
-    Index begin, member;
-    Index kept;  // end of its candidates on the inner list
+    Index begin, kept;  // of its candidates, and the end of those within reach before the next check
     S compression;
+    S rest;  // by which share of its bound each of its particles may move before it has to wake; zero: awake
   };
   struct Near {
     Index slave, master;
   };
 
+  /// In evaluations of one candidate.
+  [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle_.size(); }
   void add_side(std::size_t slaves, std::size_t masters);
-  template <class X>
-  [[nodiscard]] bool probe(const X& x) const;
   void number();
-  template <class X, class V, class Gradients, class E>
-  void measure(const X& x, const V& v, const Gradients& F, const E& execute);
-  template <class X>
-  [[noreturn]] void fail(const X& x, const OrganRange& organ) const;
+  template <class X, class Gradients, class E>
+  void measure(const X& x, const Gradients& F, const E& execute);
+  template <class E>
+  void measure_organs(const E& execute);
+  [[noreturn]] void fail(const OrganRange& organ) const;
+  [[nodiscard]] S used(const Side& side) const;
   template <class E>
   void build(const E& execute);
   template <class E>
   void build_side(std::uint32_t side, const E& execute);
-  template <class E>
-  void select(const E& execute);
-  [[nodiscard]] S keep(std::size_t row, Index& end);
-  [[nodiscard]] S margin() const { return S(0.4) * skin_; }
+  void list_rows_of_particles();
+  [[nodiscard]] bool can_touch(const OuterRow& row, S density) const;
+  void put_to_sleep(std::size_t row);
+  template <class X, class E>
+  [[nodiscard]] bool watch(const X& x, const E& execute);
+  void wake(Index particle, S moved_squared);
+  void select();
   void transpose();
 
   S radius_, skin_;
-  // Of members (a particle in an organ), organ after organ, sorted by particle.
-  std::vector<Index> particle_, unique_;
+  std::vector<Member> members_;  // organ after organ, sorted by particle
+  std::vector<Part> parts_;
+  // Of the numbered particles.
+  std::vector<Index> particle_;
   std::vector<std::uint8_t> flags_;
   std::vector<Point> place_, built_place_;  // at the latest check and build
+  std::vector<Matrix<S, D>> metric_;        // A = F^-T F^-1 at the latest check
   std::vector<S> reach_, built_reach_;      // r_e times the stretch
-  std::vector<S> compression_;              // bound of |F^-1| of masters; negative: no wall
-  std::vector<Partial> partials_;
-  // Of particles.
-  std::vector<Index> unique_particle_, touched_of_;
-  std::vector<std::uint8_t> unique_flags_;
+  std::vector<S> compression_;              // bound of |F^-1|; negative: squashed flat, no wall
+  std::vector<S> bound_, strain_;           // of motion in m and strain, until the next check
+  std::vector<S> allowance_;                // square of the motion that wakes a row or makes a check due
+  std::vector<Index> strayed_;
+  std::vector<Watch> watches_;
   // The outer list.
-  std::vector<OuterRow> outer_rows_;
-  std::vector<Index> outer_member_, kept_member_;
+  std::vector<OuterRow> outer_rows_;  // one more at the end
+  std::vector<Index> outer_master_, kept_master_;
+  std::vector<Index> rows_of_begin_, rows_of_;  // the outer rows that each particle is in
   // Scratch.
-  std::vector<Index> candidate_member_, slot_of_member_, next_;
-  std::size_t particles_ = 0, naps_ = 0;
-  S stray_squared_ = 0, speed_ = 0, step_ = 0, step_growth_ = 0;
+  std::vector<Index> awake_of_, next_;
+  std::size_t particles_ = 0, age_ = 0, nap_ = longest_nap, woken_ = 0, woken_work_ = 0;
   bool built_ = false;
 };
 

@@ -14,17 +14,17 @@ std::size_t Candidates<S, D, Ball>::add_organ(const Organ& organ) {
   for (const Index i : organ.masters) all.emplace_back(i, is_master);
   std::sort(all.begin(), all.end());
   require(all.back().first != none, "hmps: organ '", organ.name, "' names particle ", none, ", which is no index");
-  const std::size_t begin = particle_.size();
+  const std::size_t begin = members_.size();
   for (const auto& [i, role] : all) {
-    if (particle_.size() == begin || particle_.back() != i) {
-      particle_.push_back(i);
-      flags_.push_back(organ.prescribed && organ.prescribed(i) ? is_prescribed : 0);
+    if (members_.size() == begin || members_.back().particle != i) {
+      const bool prescribed = organ.prescribed && organ.prescribed(i);
+      members_.push_back({i, none, static_cast<std::uint8_t>(prescribed ? is_prescribed : 0)});
     }
-    flags_.back() = static_cast<std::uint8_t>(flags_.back() | role);
+    members_.back().flags = static_cast<std::uint8_t>(members_.back().flags | role);
   }
-  particles_ = std::max(particles_, static_cast<std::size_t>(particle_.back()) + 1);
-  organs.push_back({organ.name, begin, particle_.size(), Point::Zero(), 0, 0});
-  partials_.clear();
+  particles_ = std::max(particles_, static_cast<std::size_t>(members_.back().particle) + 1);
+  organs.push_back({organ.name, begin, members_.size(), Point::Zero(), 0, 0});
+  parts_.clear();
   built_ = false;
   return organs.size() - 1;
 }
@@ -36,9 +36,9 @@ std::size_t Candidates<S, D, Ball>::add_pair(std::size_t a, std::size_t b, const
             " organs were added, numbered from 0");
   require(a != b, "hmps: organ '", organs[a].name, "' is paired with itself; contact is between different organs");
   for (std::size_t m = organs[a].begin, k = organs[b].begin; m < organs[a].end && k < organs[b].end;) {
-    require(particle_[m] != particle_[k], "hmps: particle ", particle_[m], " is in both '", organs[a].name, "' and '",
-            organs[b].name, "'; a pair needs organs without common particles");
-    particle_[m] < particle_[k] ? ++m : ++k;
+    require(members_[m].particle != members_[k].particle, "hmps: particle ", members_[m].particle, " is in both '",
+            organs[a].name, "' and '", organs[b].name, "'; a pair needs organs without common particles");
+    members_[m].particle < members_[k].particle ? ++m : ++k;
   }
   std::vector<Index> excluded(settings.excluded_slaves.begin(), settings.excluded_slaves.end());
   std::sort(excluded.begin(), excluded.end());
@@ -53,7 +53,7 @@ template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
   const auto any = [&](std::size_t o, std::uint8_t role) {
     for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
-      if (flags_[m] & role) return true;
+      if (members_[m].flags & role) return true;
     return false;
   };
   require(any(slaves, is_slave), "hmps: organ '", organs[slaves].name, "' has no slaves but is to touch '",
@@ -66,32 +66,33 @@ void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
 /// Numbers the particles of all organs once each, and cuts the members into chunks.
 template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::number() {
-  std::vector<Index> order(particle_.size());
-  for (std::size_t m = 0; m < order.size(); ++m) order[m] = static_cast<Index>(m);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return particle_[a] < particle_[b]; });
-  unique_.resize(particle_.size());
-  unique_particle_.clear();
-  unique_flags_.clear();
-  for (const Index m : order) {
-    if (unique_particle_.empty() || unique_particle_.back() != particle_[m]) {
-      unique_particle_.push_back(particle_[m]);
-      unique_flags_.push_back(0);
-    }
-    unique_[m] = static_cast<Index>(unique_particle_.size() - 1);
-    unique_flags_.back() = static_cast<std::uint8_t>(unique_flags_.back() | flags_[m]);
+  particle_.clear();
+  for (const Member& member : members_) particle_.push_back(member.particle);
+  std::sort(particle_.begin(), particle_.end());
+  particle_.erase(std::unique(particle_.begin(), particle_.end()), particle_.end());
+  const std::size_t count = particle_.size();
+  flags_.assign(count, 0);
+  for (Member& member : members_) {
+    const auto found = std::lower_bound(particle_.begin(), particle_.end(), member.particle);
+    member.number = static_cast<Index>(found - particle_.begin());
+    flags_[member.number] = static_cast<std::uint8_t>(flags_[member.number] | member.flags);
   }
-  touched_of_.assign(unique_particle_.size(), none);
-  slot_of_member_.assign(particle_.size(), none);
-  place_.assign(particle_.size(), Point::Zero());
-  reach_.assign(particle_.size(), S(0));
-  compression_.assign(particle_.size(), S(-1));
-  partials_.clear();
+  awake_of_.assign(count, none);
+  place_.assign(count, Point::Zero());
+  metric_.assign(count, Matrix<S, D>::Identity());
+  reach_.assign(count, S(0));
+  compression_.assign(count, S(-1));
+  bound_.assign(count, S(0));
+  strain_.assign(count, S(0));
+  allowance_.assign(count, S(0));
+  strayed_.resize(count);
+  watches_.resize((count + chunk - 1) / chunk);
   for (std::size_t o = 0; o < organs.size(); ++o)
     for (std::size_t m = organs[o].begin; m < organs[o].end; m += chunk)
-      partials_.push_back({o, m, std::min(m + chunk, organs[o].end), 0, 0, 0, 0, 0, Point::Zero()});
+      parts_.push_back({o, m, std::min(m + chunk, organs[o].end), 0, 0, Point::Zero()});
 }
 
-/// Builds the outer lists from the places and reaches of the latest check.
+/// Builds the outer list from the places and reaches of the latest check.
 template <class S, int D, Metaball Ball>
 template <class E>
 void Candidates<S, D, Ball>::build(const E& execute) {
@@ -102,12 +103,13 @@ void Candidates<S, D, Ball>::build(const E& execute) {
     organ.motion = organ.growth = 0;
   }
   outer_rows_.clear();
-  outer_member_.clear();
+  outer_master_.clear();
   for (std::size_t s = 0; s < sides.size(); ++s) build_side(static_cast<std::uint32_t>(s), execute);
-  require(outer_member_.size() < none, "hmps: ", outer_member_.size(),
+  require(outer_master_.size() < none, "hmps: ", outer_master_.size(),
           " candidates for contact are more than a 32-bit index can number; name fewer slaves and masters");
-  outer_rows_.push_back({0, 0, 0, static_cast<Index>(outer_member_.size()), 0, 0, 0});
-  kept_member_.resize(outer_member_.size());
+  outer_rows_.push_back({0, 0, static_cast<Index>(outer_master_.size()), 0, 0, 0});
+  kept_master_.resize(outer_master_.size());
+  list_rows_of_particles();
   built_ = true;
   ++rebuilds;
 }
@@ -118,37 +120,43 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
   Side& side = sides[s];
   const OrganRange &a = organs[side.slaves], &b = organs[side.masters];
   const Pair& pair = pairs[side.pair];
+  const auto is_wall = [&](const Member& member) {
+    return (member.flags & is_master) && compression_[member.number] > 0;
+  };
   // Only what lies in the other's box, grown by what it reaches, is looked at.
   constexpr S far = std::numeric_limits<S>::max() / S(4);
   Point low = Point::Constant(far), high = -low, low_a = low, high_a = high;
   S widest = 0;
   for (std::size_t m = b.begin; m < b.end; ++m)
-    if (compression_[m] > 0) {
-      low = low.cwiseMin(place_[m]);
-      high = high.cwiseMax(place_[m]);
-      widest = std::max(widest, reach_[m]);
+    if (is_wall(members_[m])) {
+      const Index j = members_[m].number;
+      low = low.cwiseMin(place_[j]);
+      high = high.cwiseMax(place_[j]);
+      widest = std::max(widest, reach_[j]);
     }
   std::vector<Index> slaves, masters;
   for (std::size_t m = a.begin; m < a.end; ++m) {
-    if (!(flags_[m] & is_slave)) continue;
-    if (std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle_[m])) continue;
-    low_a = low_a.cwiseMin(place_[m]);
-    high_a = high_a.cwiseMax(place_[m]);
-    const Point out = (low - place_[m]).cwiseMax(place_[m] - high);
-    if (out.maxCoeff() <= widest + skin_) slaves.push_back(static_cast<Index>(m));
+    const Index i = members_[m].number;
+    if (!(members_[m].flags & is_slave)) continue;
+    if (std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle_[i])) continue;
+    low_a = low_a.cwiseMin(place_[i]);
+    high_a = high_a.cwiseMax(place_[i]);
+    const Point out = (low - place_[i]).cwiseMax(place_[i] - high);
+    if (out.maxCoeff() <= widest + skin_) slaves.push_back(i);
   }
   // Organs far apart bear as much motion as lies between them; all slaves excluded: any.
   const S apart = low_a[0] <= high_a[0] ? (low - high_a).cwiseMax(low_a - high).maxCoeff() - widest : far;
   side.limit = S(0.999) * std::max(skin_, apart);
   if (slaves.empty()) return;
   Point low_s = Point::Constant(far), high_s = -low_s;
-  for (const Index m : slaves) {
-    low_s = low_s.cwiseMin(place_[m]);
-    high_s = high_s.cwiseMax(place_[m]);
+  for (const Index i : slaves) {
+    low_s = low_s.cwiseMin(place_[i]);
+    high_s = high_s.cwiseMax(place_[i]);
   }
   for (std::size_t m = b.begin; m < b.end; ++m) {
-    const Point out = (low_s - place_[m]).cwiseMax(place_[m] - high_s);
-    if (compression_[m] > 0 && out.maxCoeff() <= reach_[m] + skin_) masters.push_back(static_cast<Index>(m));
+    const Index j = members_[m].number;
+    const Point out = (low_s - place_[j]).cwiseMax(place_[j] - high_s);
+    if (is_wall(members_[m]) && out.maxCoeff() <= reach_[j] + skin_) masters.push_back(j);
   }
   Grid<S, D> grid;
   grid.build(slaves.size(), radius_ + skin_, [&](std::size_t k) { return place_[slaves[k]]; });
@@ -156,9 +164,9 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
   std::vector<std::vector<Near>> found((masters.size() + batch - 1) / batch);
   execute(found.size(), [&](std::size_t q) {
     for (std::size_t l = q * batch; l < std::min(masters.size(), (q + 1) * batch); ++l) {
-      const Index m = masters[l];
-      grid.visit(place_[m], reach_[m] + skin_, [&](Index k, S) {
-        if (!pair.excluded || !pair.excluded(particle_[slaves[k]], particle_[m])) found[q].push_back({k, m});
+      const Index j = masters[l];
+      grid.visit(place_[j], reach_[j] + skin_, [&](Index k, S) {
+        if (!pair.excluded || !pair.excluded(particle_[slaves[k]], particle_[j])) found[q].push_back({k, j});
       });
     }
   });
@@ -166,16 +174,30 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
   std::vector<std::size_t> count(slaves.size() + 1, 0);
   for (const auto& list : found)
     for (const Near& near : list) ++count[near.slave + 1];
-  const std::size_t first = outer_member_.size();
+  const std::size_t first = outer_master_.size();
   for (std::size_t k = 0; k < slaves.size(); ++k) {
-    if (count[k + 1] > 0)
-      outer_rows_.push_back(
-          {particle_[slaves[k]], unique_[slaves[k]], s, static_cast<Index>(first + count[k]), slaves[k], 0, 0});
+    if (count[k + 1] > 0) outer_rows_.push_back({slaves[k], s, static_cast<Index>(first + count[k]), 0, 0, 0});
     count[k + 1] += count[k];
   }
-  outer_member_.resize(first + count.back());
+  outer_master_.resize(first + count.back());
   for (const auto& list : found)
-    for (const Near& near : list) outer_member_[first + count[near.slave]++] = near.master;
+    for (const Near& near : list) outer_master_[first + count[near.slave]++] = near.master;
+}
+
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::list_rows_of_particles() {
+  const auto each = [&](auto&& visit) {
+    for (std::size_t r = 0; r + 1 < outer_rows_.size(); ++r) {
+      visit(outer_rows_[r].slave, r);
+      for (Index k = outer_rows_[r].begin; k < outer_rows_[r + 1].begin; ++k) visit(outer_master_[k], r);
+    }
+  };
+  rows_of_begin_.assign(particle_.size() + 1, 0);
+  each([&](Index i, std::size_t) { ++rows_of_begin_[i + 1]; });
+  for (std::size_t i = 0; i < particle_.size(); ++i) rows_of_begin_[i + 1] += rows_of_begin_[i];
+  rows_of_.resize(rows_of_begin_.back());
+  next_.assign(rows_of_begin_.begin(), rows_of_begin_.end() - 1);
+  each([&](Index i, std::size_t r) { rows_of_[next_[i]++] = static_cast<Index>(r); });
 }
 
 }  // namespace hmps::detail

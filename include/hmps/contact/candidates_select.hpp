@@ -6,224 +6,294 @@
 
 namespace hmps::detail {
 
-/// Three particles of each organ tell when whole organs were moved by other means than steps in time.
 template <class S, int D, Metaball Ball>
-template <class X>
-bool Candidates<S, D, Ball>::probe(const X& x) const {
-  for (const OrganRange& organ : organs)
-    for (const std::size_t m : {organ.begin, (organ.begin + organ.end) / 2, organ.end - 1})
-      if (!((x[particle_[m]].template cast<S>() - place_[m]).squaredNorm() <= stray_squared_)) return true;
-  return false;
+template <class X, class Gradients, class E>
+bool Candidates<S, D, Ball>::update(const X& x, const Gradients& F, const E& execute) {
+  woken_work_ += woken_;
+  const std::size_t woken_before = woken_;
+  if (!built_ || ++age_ >= nap_ || woken_work_ > cost_of_check() || !watch(x, execute)) {
+    check(x, F, execute);
+    return true;
+  }
+  if (woken_ == woken_before) return false;
+  select();
+  return true;
 }
 
 template <class S, int D, Metaball Ball>
-template <class X, class V, class Gradients, class E>
-void Candidates<S, D, Ball>::check(const X& x, const V& v, const Gradients& F, S dt, const E& execute) {
-  if (partials_.empty()) {
+template <class X, class Gradients, class E>
+void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& execute) {
+  if (parts_.empty()) {
     number();
     built_ = false;
   }
-  measure(x, v, F, execute);
+  measure(x, F, execute);
+  measure_organs(execute);
   ++checks;
-  if (built_ && S(2) * step_ + step_growth_ > margin()) ++late;
-  for (const Side& side : sides) {
-    const OrganRange &a = organs[side.slaves], &b = organs[side.masters];
-    if (!(a.motion + b.motion + (a.moved - b.moved).norm() + b.growth + margin() < side.limit)) built_ = false;
-  }
+  for (const Side& side : sides)
+    if (!(used(side) + S(0.4) * skin_ < side.limit)) built_ = false;
   if (!built_) build(execute);
-  select(execute);
-  // Half the margin for motion at twice the present speeds of both partners; growth of the reach is
-  // slower than that, and is seen at the next check.
-  const S naps = S(0.5) * margin() / (S(2) * speed_ * dt + std::numeric_limits<S>::min());
-  naps_ = naps < S(longest_nap) ? static_cast<std::size_t>(naps) : longest_nap;
-  stray_squared_ = S(0.16) * margin() * margin();
+  // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
+  S most = std::numeric_limits<S>::max();
+  for (const Side& side : sides) most = std::min(most, S(0.4) * (side.limit - used(side)));
+  for (std::size_t i = 0; i < bound_.size(); ++i) {
+    bound_[i] = std::min(bound_[i], most);
+    allowance_[i] = bound_[i] * bound_[i];
+  }
+  const std::size_t count = outer_rows_.size() - 1;
+  constexpr std::size_t batch = 64;
+  execute((count + batch - 1) / batch, [&](std::size_t q) {
+    for (std::size_t r = q * batch; r < std::min(count, (q + 1) * batch); ++r) put_to_sleep(r);
+  });
+  for (std::size_t r = 0; r < count; ++r) {
+    const OuterRow& row = outer_rows_[r];
+    if (!(row.rest > S(0) && row.rest < S(1))) continue;
+    const auto limit = [&](Index i) {
+      const S motion = row.rest * bound_[i];
+      allowance_[i] = std::min(allowance_[i], motion * motion);
+    };
+    limit(row.slave);
+    for (Index k = row.begin; k < row.kept; ++k) limit(kept_master_[k]);
+  }
+  age_ = woken_ = woken_work_ = 0;
+  select();
+  // Sharper lists are worth about a tenth of what is spent on evaluating them.
+  nap_ = std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), 8, longest_nap);
 }
 
-/// Places, reaches, and how far all moved since the outer lists were built and since the last check.
+/// How much of its limit a side has used up since the outer list was built.
 template <class S, int D, Metaball Ball>
-template <class X, class V, class Gradients, class E>
-void Candidates<S, D, Ball>::measure(const X& x, const V& v, const Gradients& F, const E& execute) {
-  execute(partials_.size(), [&](std::size_t q) {
-    Partial& part = partials_[q];
-    const Point shift = organs[part.organ].moved;
-    S motion = 0, growth = 0, speed = 0, step = 0, step_growth = 0;
-    Point sum = Point::Zero();
-    for (std::size_t m = part.begin; m < part.end; ++m) {
-      const Point place = x[particle_[m]].template cast<S>();
-      if (built_) {
-        const Point u = place - built_place_[m];
-        sum += u;
-        motion = std::max(motion, (u - shift).squaredNorm());
-        step = std::max(step, (place - place_[m]).squaredNorm());
-      } else {
-        sum += place;
-      }
-      speed = std::max(speed, v[particle_[m]].template cast<S>().squaredNorm());
-      place_[m] = place;
-      const Matrix<S, D> deformation = F[particle_[m]].template cast<S>();
-      const S reach = radius_ * stretch_bound<S, D>(deformation);
-      if (flags_[m] & is_master) {
-        const S compression = stretch_bound<S, D>(inverse<S, D>(deformation));
-        // A master that is squashed flat is no wall.
-        compression_[m] = std::isfinite(compression) && std::isfinite(reach) ? compression : S(-1);
-        if (built_) {
-          growth = std::max(growth, reach - built_reach_[m]);
-          step_growth = std::max(step_growth, reach - reach_[m]);
+S Candidates<S, D, Ball>::used(const Side& side) const {
+  const OrganRange &a = organs[side.slaves], &b = organs[side.masters];
+  return a.motion + b.motion + (a.moved - b.moved).norm() + b.growth;
+}
+
+/// Place, reach and strain of every particle.
+template <class S, int D, Metaball Ball>
+template <class X, class Gradients, class E>
+void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& execute) {
+  constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
+  static_assert(chunk % width == 0);
+  execute(watches_.size(), [&](std::size_t q) {
+    bool late_here = false;
+    const std::size_t end = std::min(particle_.size(), (q + 1) * chunk);
+    for (std::size_t begin = q * chunk; begin < end; begin += width) {
+      const auto deformation =
+          gather_gradients<S, D>(F, [&](std::size_t l) { return particle_[std::min(begin + l, end - 1)]; });
+      const auto B = inverse<Lanes<S>, D>(deformation);
+      const auto A = right_cauchy_green<Lanes<S>, D>(B);
+      const Lanes<S> stretch = stretch_bound<Lanes<S>, D>(deformation), compression = stretch_bound<Lanes<S>, D>(B);
+      for (std::size_t l = 0; l < width && begin + l < end; ++l) {
+        const std::size_t i = begin + l;
+        const Point place = x[particle_[i]].template cast<S>();
+        const S longer = static_cast<S>(nap_) / static_cast<S>(std::max<std::size_t>(age_, 1));
+        bound_[i] = built_ ? least_motion * normal_density.spacing() + S(2) * longer * (place - place_[i]).norm()
+                           : std::numeric_limits<S>::max();
+        place_[i] = place;
+        // |B r| = sqrt(r . A r) changes by half of |dA| over the smallest eigenvalue of A, as a share.
+        S change = 0;
+        for (int c = 0; c < D * D; ++c) {
+          S& old = metric_[i](c % D, c / D);
+          const S now = A(c % D, c / D).lane[l];
+          change += (now - old) * (now - old);
+          old = now;
         }
+        change = S(0.5) * std::sqrt(change) * stretch.lane[l] * stretch.lane[l];
+        late_here = late_here || (built_ && rows_of_begin_[i] < rows_of_begin_[i + 1] && change > strain_[i]);
+        strain_[i] = built_ ? std::max(least_strain, S(4) * longer * change) : first_strain;
+        const S reach = radius_ * stretch.lane[l];
+        reach_[i] = reach;
+        // A master that is squashed flat is no wall.
+        const bool is_wall = std::isfinite(compression.lane[l]) && std::isfinite(reach);
+        compression_[i] = is_wall ? compression.lane[l] : S(-1);
       }
-      reach_[m] = reach;
     }
-    part = {part.organ, part.begin, part.end, motion, growth, speed, step, step_growth, sum};
+    watches_[q].late = late_here;
   });
-  speed_ = step_ = step_growth_ = 0;
-  std::size_t organ_of_failure = organs.size();
+  bool any = false;
+  for (const Watch& part : watches_) any = any || part.late;
+  late += any;
+}
+
+/// How far the organs have moved since the outer list was built.
+template <class S, int D, Metaball Ball>
+template <class E>
+void Candidates<S, D, Ball>::measure_organs(const E& execute) {
+  execute(parts_.size(), [&](std::size_t q) {
+    Part& part = parts_[q];
+    const Point shift = organs[part.organ].moved;
+    part.motion = part.growth = 0;
+    part.sum.setZero();
+    for (std::size_t m = part.begin; m < part.end; ++m) {
+      const Index i = members_[m].number;
+      const Point u = built_ ? Point(place_[i] - built_place_[i]) : place_[i];
+      part.sum += u;
+      part.motion = std::max(part.motion, (u - shift).squaredNorm());
+      if (built_ && (members_[m].flags & is_master)) part.growth = std::max(part.growth, reach_[i] - built_reach_[i]);
+    }
+  });
   std::vector<Point> shift(organs.size());
   for (std::size_t o = 0; o < organs.size(); ++o) {
     shift[o] = organs[o].moved;
     organs[o].motion = organs[o].growth = 0;
     organs[o].moved.setZero();
   }
-  for (const Partial& part : partials_) {
+  for (const Part& part : parts_) {
     OrganRange& organ = organs[part.organ];
     organ.motion = std::max(organ.motion, part.motion);
     organ.growth = std::max(organ.growth, part.growth);
     organ.moved += part.sum;
-    speed_ = std::max(speed_, part.speed);
-    step_ = std::max(step_, part.step);
-    step_growth_ = std::max(step_growth_, part.step_growth);
-    // A NaN slips through the maxima but not through the sum.
-    if (!std::isfinite(part.sum.sum())) organ_of_failure = std::min(organ_of_failure, part.organ);
   }
-  if (organ_of_failure < organs.size()) fail(x, organs[organ_of_failure]);
-  speed_ = std::sqrt(speed_);
-  step_ = std::sqrt(step_);
   for (std::size_t o = 0; o < organs.size(); ++o) {
     OrganRange& organ = organs[o];
+    // A NaN slips through the maxima but not through the sum.
+    if (!std::isfinite(organ.moved.sum())) fail(organ);
     // `motion` was measured beyond the mean of the check before, which serves as well as the present.
-    organ.motion = std::sqrt(organ.motion);
     const Point mean = organ.moved / static_cast<S>(organ.end - organ.begin);
-    organ.motion += (mean - shift[o]).norm();
+    organ.motion = std::sqrt(organ.motion) + (mean - shift[o]).norm();
     organ.moved = mean;
   }
 }
 
 template <class S, int D, Metaball Ball>
-template <class X>
-void Candidates<S, D, Ball>::fail(const X& x, const OrganRange& organ) const {
+void Candidates<S, D, Ball>::fail(const OrganRange& organ) const {
   for (std::size_t m = organ.begin; m < organ.end; ++m)
     for (int c = 0; c < D; ++c)
-      if (!std::isfinite(x(particle_[m], c)))
-        throw StateError(message("hmps: contact found component ", c, " of the position of particle ", particle_[m],
-                                 " of '", organ.name, "' to be ", x(particle_[m], c),
+      if (const S place = place_[members_[m].number][c]; !std::isfinite(place))
+        throw StateError(message("hmps: contact found component ", c, " of the position of particle ",
+                                 members_[m].particle, " of '", organ.name, "' to be ", place,
                                  "; the run has become unstable: try a shorter step or a softer penalty"));
   throw StateError(message("hmps: contact found the positions of '", organ.name,
                            "' to overflow; the run has become unstable: try a shorter step or a softer penalty"));
 }
 
-/// Sorts out the masters of outer row `r` that the inner list keeps; none of them where the slave
-/// cannot touch before the next check, for which C is bounded from above with every master nearer by
-/// the margin. Returns the bound of |F_j^-1|.
+/// Whether the slave of `row` could touch until the next check if the sum of metaballs were `density`.
 template <class S, int D, Metaball Ball>
-S Candidates<S, D, Ball>::keep(std::size_t r, Index& end) {
-  const OuterRow& row = outer_rows_[r];
-  const Point place = place_[row.member];
-  S density = 0, compression = 0;
-  end = row.begin;
-  for (Index k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
-    const Index m = outer_member_[k];
-    const S reach = reach_[m] + margin(), squared = (place_[m] - place).squaredNorm();
-    if (!(squared <= reach * reach) || compression_[m] < S(0)) continue;
-    kept_member_[end++] = m;
-    compression = std::max(compression, compression_[m]);
-    const S nearest = std::max(S(0), std::sqrt(squared) - margin()) / reach_[m];
-    density += Ball::value(std::min(S(1), nearest * nearest));
-  }
-  // Five per cent for what the gradients may do meanwhile.
-  compression *= S(1.05);
-  const S l0 = normal_density.spacing(), support = S(1.05) * S(0.5) * l0 * reach_[row.member] / radius_;
-  if (surface_distance(S(1), normal_density.inverse(density).value, l0) >= support * compression) end = row.begin;
-  return compression;
+bool Candidates<S, D, Ball>::can_touch(const OuterRow& row, S density) const {
+  const S l0 = normal_density.spacing(),
+          support = (S(1) + strain_[row.slave]) * S(0.5) * l0 * reach_[row.slave] / radius_;
+  return surface_distance(S(1), normal_density.inverse(density).value, l0) < support * row.compression;
 }
 
+/// Keeps the masters of outer row `r` that could be within reach before the next check, and tells how
+/// long it may rest: C is bounded from above with every master nearer by what both may move. With B
+/// for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
 template <class S, int D, Metaball Ball>
-template <class E>
-void Candidates<S, D, Ball>::select(const E& execute) {
-  const std::size_t outer = outer_rows_.size() - 1;
-  constexpr std::size_t batch = 64;
-  execute((outer + batch - 1) / batch, [&](std::size_t q) {
-    for (std::size_t r = q * batch; r < std::min(outer, (q + 1) * batch); ++r)
-      outer_rows_[r].compression = keep(r, outer_rows_[r].kept);
-  });
-  rows.clear();
-  candidate_member_.clear();
-  for (std::size_t r = 0; r < outer; ++r) {
-    const OuterRow& row = outer_rows_[r];
-    if (row.kept == row.begin) continue;
-    rows.push_back({row.particle, row.unique, row.side, static_cast<Index>(candidate_member_.size()), row.compression});
-    candidate_member_.insert(candidate_member_.end(), kept_member_.begin() + row.begin,
-                             kept_member_.begin() + row.kept);
+void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
+  OuterRow& row = outer_rows_[r];
+  const Point place = place_[row.slave];
+  constexpr std::size_t levels = 3;
+  S density[levels] = {};
+  row.kept = row.begin;
+  row.compression = 0;
+  for (Index k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
+    const Index j = outer_master_[k];
+    const Point apart = place_[j] - place;
+    const S strain = S(1) + strain_[j], motion = bound_[row.slave] + bound_[j];
+    const S furthest = strain * reach_[j] + motion;
+    if (compression_[j] < S(0) || !(apart.squaredNorm() <= furthest * furthest)) continue;
+    const S distance = std::sqrt(apart.dot(metric_[j] * apart)) / (strain * radius_);
+    S nearer = strain * compression_[j] / radius_ * motion;
+    if (distance - nearer >= S(1)) continue;
+    kept_master_[row.kept++] = j;
+    row.compression = std::max(row.compression, strain * compression_[j]);
+    for (std::size_t q = 0; q < levels; ++q, nearer *= S(0.5)) {
+      const S nearest = std::max(S(0), distance - nearer);
+      density[q] += Ball::value(std::min(S(1), nearest * nearest));
+    }
   }
-  rows.push_back({0, 0, 0, static_cast<Index>(candidate_member_.size()), 0});
+  row.rest = 1;
+  for (std::size_t q = 0; q < levels && row.rest > S(0); ++q) {
+    if (!can_touch(row, density[q])) return;
+    row.rest = q + 1 < levels ? S(0.5) * row.rest : S(0);
+  }
+}
+
+/// Wakes the rows of what has moved too far since the check. False if something has moved so far, or is
+/// not finite, that a new check is due.
+template <class S, int D, Metaball Ball>
+template <class X, class E>
+bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
+  const auto moved_squared = [&](std::size_t i) {
+    return (x[particle_[i]].template cast<S>() - place_[i]).squaredNorm();
+  };
+  execute(watches_.size(), [&](std::size_t q) {
+    Watch found{0, false, false};
+    for (std::size_t i = q * chunk; i < std::min(particle_.size(), (q + 1) * chunk); ++i)
+      if (const S moved = moved_squared(i); !(moved <= allowance_[i])) {
+        strayed_[q * chunk + found.strayed++] = static_cast<Index>(i);
+        found.far = found.far || !(moved <= bound_[i] * bound_[i]);
+      }
+    watches_[q] = found;
+  });
+  for (const Watch& found : watches_)
+    if (found.far) return false;
+  for (std::size_t q = 0; q < watches_.size(); ++q)
+    for (std::size_t k = q * chunk; k < q * chunk + watches_[q].strayed; ++k)
+      wake(strayed_[k], moved_squared(strayed_[k]));
+  return true;
+}
+
+/// Wakes the rows that must not sleep any more now that one of their particles has moved so far.
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::wake(Index particle, S moved_squared) {
+  S& allowance = allowance_[particle] = bound_[particle] * bound_[particle];
+  for (Index q = rows_of_begin_[particle]; q < rows_of_begin_[particle + 1]; ++q) {
+    OuterRow& row = outer_rows_[rows_of_[q]];
+    const S motion = row.rest * bound_[particle], rest_squared = motion * motion;
+    if (row.rest == S(0)) continue;
+    if (rest_squared < moved_squared) {
+      row.rest = 0;
+      woken_ += row.kept - row.begin;
+    } else {
+      allowance = std::min(allowance, rest_squared);
+    }
+  }
+}
+
+/// Makes the inner list of the rows that are awake.
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::select() {
+  rows.clear();
+  master_of.clear();
+  for (const OuterRow& row : outer_rows_) {
+    if (row.rest > S(0) || row.kept <= row.begin) continue;
+    rows.push_back({row.slave, row.side, static_cast<Index>(master_of.size()), row.compression});
+    master_of.insert(master_of.end(), kept_master_.begin() + row.begin, kept_master_.begin() + row.kept);
+  }
+  rows.push_back({0, 0, static_cast<Index>(master_of.size()), 0});
   transpose();
 }
 
-/// Numbers the slots and the touched particles of the inner list and lists what refers to each.
+/// Numbers the awake particles and lists what refers to each.
 template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::transpose() {
   const std::size_t row_count = rows.size() - 1;
-  // Members ascend, so slots follow the particles' order.
-  for (const Index m : candidate_member_) slot_of_member_[m] = 0;
-  slot_member.clear();
-  slot_particle.clear();
-  for (std::size_t m = 0; m < slot_of_member_.size(); ++m)
-    if (slot_of_member_[m] != none) {
-      slot_of_member_[m] = static_cast<Index>(slot_member.size());
-      slot_member.push_back(static_cast<Index>(m));
-      slot_particle.push_back(particle_[m]);
+  for (std::size_t r = 0; r < row_count; ++r) awake_of_[rows[r].slave] = 0;
+  for (const Index j : master_of) awake_of_[j] = 0;
+  awake.clear();
+  for (std::size_t i = 0; i < awake_of_.size(); ++i)
+    if (awake_of_[i] != none) {
+      awake_of_[i] = static_cast<Index>(awake.size());
+      awake.push_back({particle_[i], flags_[i], 0, 0});
     }
-  const std::size_t slot_count = slot_member.size();
-  slot_of.resize(candidate_member_.size());
-  slot_begin.assign(slot_count + 1, 0);
-  for (std::size_t k = 0; k < slot_of.size(); ++k) {
-    slot_of[k] = slot_of_member_[candidate_member_[k]];
-    ++slot_begin[slot_of[k] + 1];
+  awake.push_back({0, 0, 0, 0});
+  for (std::size_t r = 0; r < row_count; ++r) ++awake[rows[r].slave = awake_of_[rows[r].slave]].rows;
+  for (Index& j : master_of) ++awake[j = awake_of_[j]].entries;
+  std::fill(awake_of_.begin(), awake_of_.end(), none);
+  // Ends first; filling backwards moves each on to its begin.
+  for (std::size_t t = 1; t < awake.size(); ++t) {
+    awake[t].rows += awake[t - 1].rows;
+    awake[t].entries += awake[t - 1].entries;
   }
-  for (std::size_t l = 0; l < slot_count; ++l) slot_begin[l + 1] += slot_begin[l];
-  slot_rows.resize(slot_of.size());
-  entry_of.resize(slot_of.size());
-  next_.assign(slot_begin.begin(), slot_begin.end() - 1);
-  for (std::size_t r = 0; r < row_count; ++r)
-    for (Index k = rows[r].begin; k < rows[r + 1].begin; ++k) {
-      entry_of[k] = next_[slot_of[k]]++;
-      slot_rows[entry_of[k]] = static_cast<Index>(r);
-    }
-  for (const Index m : slot_member) slot_of_member_[m] = none;
-
-  // Each particle once, with all its rows and slots: the only place where its force is written.
-  for (std::size_t r = 0; r < row_count; ++r) touched_of_[rows[r].touched] = 0;
-  for (const Index m : slot_member) touched_of_[unique_[m]] = 0;
-  touched.clear();
-  for (std::size_t u = 0; u < touched_of_.size(); ++u)
-    if (touched_of_[u] != none) {
-      touched_of_[u] = static_cast<Index>(touched.size());
-      touched.push_back({unique_particle_[u], unique_flags_[u], 0, 0});
-    }
-  slot_touched.resize(slot_count);
-  for (std::size_t r = 0; r < row_count; ++r) ++touched[rows[r].touched = touched_of_[rows[r].touched]].rows;
-  for (std::size_t l = 0; l < slot_count; ++l) ++touched[slot_touched[l] = touched_of_[unique_[slot_member[l]]]].slots;
-  Index row_end = 0, slot_end = 0;
-  for (Touched& t : touched) {
-    row_end += t.rows;
-    t.rows = row_end - t.rows;
-    slot_end += t.slots;
-    t.slots = slot_end - t.slots;
+  slave_rows.resize(row_count);
+  entry_of.resize(master_of.size());
+  entry_rows.resize(master_of.size());
+  for (std::size_t r = row_count; r-- > 0;) {
+    slave_rows[--awake[rows[r].slave].rows] = static_cast<Index>(r);
+    for (Index k = rows[r + 1].begin; k-- > rows[r].begin;)
+      entry_rows[entry_of[k] = --awake[master_of[k]].entries] = static_cast<Index>(r);
   }
-  std::fill(touched_of_.begin(), touched_of_.end(), none);
-  touched_rows.resize(row_end);
-  touched_slots.resize(slot_end);
-  // Filling moves each begin on to its end, which is where the next one begins.
-  for (std::size_t r = 0; r < row_count; ++r) touched_rows[touched[rows[r].touched].rows++] = static_cast<Index>(r);
-  for (std::size_t l = 0; l < slot_count; ++l) touched_slots[touched[slot_touched[l]].slots++] = static_cast<Index>(l);
 }
 
 }  // namespace hmps::detail

@@ -47,10 +47,10 @@ struct ContactReport {
   std::size_t deep = 0;
   S penetration = 0;           ///< The largest p in m.
   Index deepest = 0;           ///< Its slave.
-  std::size_t candidates = 0;  ///< Slave-master pairs on the lists.
+  std::size_t candidates = 0;  ///< Slave-master pairs that were looked at.
   std::size_t rebuilds = 0;    ///< How often the grid search ran so far.
-  /// How often so far particles turned out to have been faster than twice the speeds that the lists
-  /// were chosen for, so that a touch may have been seen a few steps late. Zero in a sane run.
+  /// How often so far strains turned out to have changed by more than five per cent between two checks of
+  /// the lists, so that a touch may have been seen a few steps late. Zero in a sane run.
   std::size_t late = 0;
 };
 
@@ -150,7 +150,6 @@ class MetaballContact {
   };
   struct Batch {
     std::size_t count, deep;
-    bool strayed;
   };
   static constexpr std::size_t batch = 64;
 
@@ -162,7 +161,7 @@ class MetaballContact {
 
   void resize();
   template <class X, class V, class G, class E>
-  bool gather(const X& x, const V& v, const G& F, const E& execute);
+  void gather(const X& x, const V& v, const G& F, const E& execute);
   template <class E>
   void weigh(const E& execute);
   template <class T, class E>
@@ -170,15 +169,15 @@ class MetaballContact {
 
   ContactSettings settings_;
   Lists lists_;
-  std::vector<Master> masters_;  // per slot
+  std::vector<Master> masters_;  // per awake particle
   std::vector<Moving> moving_;
-  // Per candidate c / C where the row touches, else 0; row by row, and slot by slot.
-  std::vector<S> weight_, slot_weight_;
+  // Per candidate c / C where the row touches, else 0; row by row, and master by master.
+  std::vector<S> weight_, entry_weight_;
   std::vector<RowState> state_;  // per row
   std::vector<Quad> force_;
   std::vector<Index> batch_rows_, touching_;
   std::vector<Batch> batches_;
-  std::vector<S> load_, slot_load_;  // per touched particle and per slot: N
+  std::vector<S> load_;  // per awake particle: N
 };
 
 }  // namespace hmps

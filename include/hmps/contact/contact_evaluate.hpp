@@ -8,50 +8,56 @@ namespace hmps {
 /// Makes room for what the present lists name.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 void MetaballContact<S, D, Ball, Friction>::resize() {
-  const std::size_t row_count = lists_.rows.size() - 1, slot_count = lists_.slot_member.size();
-  masters_.resize(slot_count);
-  moving_.resize(slot_count);
-  weight_.resize(lists_.slot_of.size());
-  slot_weight_.resize(lists_.slot_of.size());
-  slot_load_.resize(slot_count);
+  const std::size_t row_count = lists_.rows.size() - 1, awake_count = lists_.awake.size() - 1;
+  masters_.resize(awake_count);
+  moving_.resize(awake_count);
+  load_.resize(awake_count);
+  weight_.resize(lists_.master_of.size());
+  entry_weight_.resize(lists_.master_of.size());
   state_.resize(row_count);
   force_.resize(row_count);
   batch_rows_.resize(row_count);
   touching_.reserve(row_count);
-  batches_.resize((std::max(row_count, slot_count) + batch - 1) / batch);
-  load_.resize(lists_.touched.size());
+  batches_.resize((row_count + batch - 1) / batch);
 }
 
-/// F_j^-1 once per master. True if a master has moved further than the lists bear.
+/// F_j^-1 once per particle, many at a time.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class E>
-bool MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
-  const std::size_t slot_count = masters_.size(), count = (slot_count + batch - 1) / batch;
-  execute(count, [&](std::size_t q) {
-    bool strayed = false;
-    for (std::size_t l = q * batch; l < std::min(slot_count, (q + 1) * batch); ++l) {
-      const Index j = lists_.slot_particle[l];
-      Tensor B = inverse<S, D>(F[j].template cast<S>());
-      Point place = x[j].template cast<S>();
-      strayed = strayed || lists_.strayed(l, place);
-      // A master that is squashed flat is no wall: it is put out of reach.
-      if (!(B.squaredNorm() < std::numeric_limits<S>::max())) {
-        B.setIdentity();
-        place.setConstant(S(1e6));
-      }
-      const Tensor A = product<S, D>(B.transpose(), B);
-      detail::spread<S>(place, masters_[l].x);
-      detail::spread<S>(v[j].template cast<S>(), moving_[l].v);
-      for (int c = 0; c < D; ++c) {
-        detail::spread<S>(A.col(c), masters_[l].A[c]);
-        detail::spread<S>(B.col(c), moving_[l].B[c]);
+void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
+  constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
+  static_assert(batch % width == 0);
+  execute((masters_.size() + batch - 1) / batch, [&](std::size_t q) {
+    const std::size_t end = std::min(masters_.size(), (q + 1) * batch);
+    for (std::size_t begin = q * batch; begin < end; begin += width) {
+      const auto B = inverse<Lanes<S>, D>(detail::gather_gradients<S, D>(
+          F, [&](std::size_t l) { return lists_.awake[std::min(begin + l, end - 1)].particle; }));
+      const auto A = right_cauchy_green<Lanes<S>, D>(B);
+      for (std::size_t l = 0; l < width && begin + l < end; ++l) {
+        const Index j = lists_.awake[begin + l].particle;
+        Master& master = masters_[begin + l];
+        Moving& moving = moving_[begin + l];
+        const Point place = x[j].template cast<S>(), velocity = v[j].template cast<S>();
+        S size = 0;
+        for (int r = 0; r < D; ++r) {
+          master.x[r] = place[r];
+          moving.v[r] = velocity[r];
+          size += A(r, r).lane[l];
+          for (int c = 0; c < D; ++c) {
+            master.A[c][r] = A(r, c).lane[l];
+            moving.B[c][r] = B(r, c).lane[l];
+          }
+        }
+        // A master that is squashed flat is no wall: it is put out of reach.
+        if (!(size < std::numeric_limits<S>::max())) {
+          for (int r = 0; r < D; ++r) {
+            master.x[r] = S(1e6);
+            for (int c = 0; c < D; ++c) master.A[c][r] = moving.B[c][r] = static_cast<S>(r == c);
+          }
+        }
       }
     }
-    batches_[q].strayed = strayed;
   });
-  for (std::size_t q = 0; q < count; ++q)
-    if (batches_[q].strayed) return true;
-  return false;
 }
 
 /// One slave against one wall: \paper{28} to \paper{38}. True if it touches.
@@ -60,17 +66,18 @@ template <class X, class V, class G>
 bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, bool& deep) {
   const auto& row = lists_.rows[r];
   const std::size_t begin = row.begin, end = lists_.rows[r + 1].begin;
-  const Index* slot = lists_.slot_of.data();
+  const Index slave = lists_.awake[row.slave].particle;
+  const Index* master_of = lists_.master_of.data();
   S* weight = weight_.data();
   RowState& state = state_[r];
   const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
   const S over_radius_squared = S(1) / (radius * radius);
   Quad place;
-  detail::spread<S>(x[row.particle].template cast<S>(), place);
+  detail::spread<S>(x[slave].template cast<S>(), place);
 
   MasterSurface<S, D, Ball> surface;
   for (std::size_t k = begin; k < end; ++k) {
-    const Master& master = masters_[slot[k]];
+    const Master& master = masters_[master_of[k]];
     Quad towards = master.x;
     towards -= place;
     weight[k] = surface.reach(master.A, towards, over_radius_squared);
@@ -82,50 +89,45 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
     touches = false;
   }
   if (touches) {
-    const S support = slave_support<S, D>(F[row.particle].template cast<S>(), state.normal, l0);
+    const S support = slave_support<S, D>(F[slave].template cast<S>(), state.normal, l0);
     // The stretch is at least 1 / compression: the others need no second pass.
     touches = surface_distance(S(1), centres.value, l0) < support * row.compression;
     if (touches) {
       for (std::size_t k = begin; k < end; ++k)
-        if (weight[k] > S(0)) surface.mean(weight[k], moving_[slot[k]].B, moving_[slot[k]].v);
+        if (weight[k] > S(0)) surface.mean(weight[k], moving_[master_of[k]].B, moving_[master_of[k]].v);
       const S distance = surface_distance(surface.stretch(state.normal), centres.value, l0);
       state.penetration = penetration(support, distance);
       touches = state.penetration > S(0);
     }
   }
   const Index* entry = lists_.entry_of.data();
-  S* slot_weight = slot_weight_.data();
+  S* entry_weight = entry_weight_.data();
   if (!touches) {
-    for (std::size_t k = begin; k < end; ++k) slot_weight[entry[k]] = weight[k] = 0;
+    for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] = 0;
     return false;
   }
   deep = centres.deep ||
          (centres.value < S(0) && surface.gradient(over_radius_squared).norm() * surface.stretch(state.normal) <
                                       lists_.normal_density.least_slope());
-  state.slip = surface.relative_velocity(v[row.particle].template cast<S>());
+  state.slip = surface.relative_velocity(v[slave].template cast<S>());
   const S over_density = S(1) / surface.density();
-  for (std::size_t k = begin; k < end; ++k) slot_weight[entry[k]] = weight[k] *= over_density;
+  for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] *= over_density;
   return true;
 }
 
-/// N of `CorrectedFriction` for every particle.
+/// N of `CorrectedFriction` for every awake particle.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class E>
 void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
-  execute(lists_.touched.size(), [&](std::size_t t) {
-    const auto& own = lists_.touched[t];
+  execute(load_.size(), [&](std::size_t t) {
+    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
     S load = 0;
     if (!(own.flags & Lists::is_prescribed)) {
-      for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].rows; q < own.rows; ++q)
-        load += static_cast<S>(state_[lists_.touched_rows[q]].penetration > S(0));
-      for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].slots; q < own.slots; ++q) {
-        const Index l = lists_.touched_slots[q];
-        for (std::size_t e = lists_.slot_begin[l]; e < lists_.slot_begin[l + 1]; ++e) load += slot_weight_[e];
-      }
+      for (std::size_t q = own.rows; q < next.rows; ++q)
+        load += static_cast<S>(state_[lists_.slave_rows[q]].penetration > S(0));
+      for (std::size_t e = own.entries; e < next.entries; ++e) load += entry_weight_[e];
     }
     load_[t] = load;
-    for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].slots; q < own.slots; ++q)
-      slot_load_[lists_.touched_slots[q]] = load;
   });
 }
 
@@ -133,25 +135,13 @@ void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class T, class E>
 void MetaballContact<S, D, Ball, Friction>::hand_out(const T& f, const E& execute) const {
-  execute(lists_.touched.size(), [&](std::size_t t) {
-    const auto& own = lists_.touched[t];
+  execute(load_.size(), [&](std::size_t t) {
+    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
+    // Rows that do not touch have no force: adding it costs less than to ask.
     Quad force{};
-    bool hit = false;
-    for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].rows; q < own.rows; ++q) {
-      const Index r = lists_.touched_rows[q];
-      if (!(state_[r].penetration > S(0))) continue;
-      force += force_[r];
-      hit = true;
-    }
-    for (std::size_t q = t == 0 ? 0 : lists_.touched[t - 1].slots; q < own.slots; ++q) {
-      const Index l = lists_.touched_slots[q];
-      for (std::size_t e = lists_.slot_begin[l]; e < lists_.slot_begin[l + 1]; ++e) {
-        if (!(slot_weight_[e] > S(0))) continue;
-        force -= force_[lists_.slot_rows[e]] * slot_weight_[e];
-        hit = true;
-      }
-    }
-    if (hit) f.add(own.particle, detail::first<D, S>(force));
+    for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.slave_rows[q]];
+    for (std::size_t e = own.entries; e < next.entries; ++e) force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
+    f.add(own.particle, detail::first<D, S>(force));
   });
 }
 
@@ -165,29 +155,27 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
   require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
           " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
   const S k = static_cast<S>(settings_.stiffness.at(settings_.density, dt));
-  if (lists_.update(x, v, F, static_cast<S>(dt), execute)) resize();
-  if (gather(x, v, F, execute)) {
-    lists_.check(x, v, F, static_cast<S>(dt), execute);
-    resize();
-    gather(x, v, F, execute);
-  }
+  if (lists_.update(x, F, execute)) resize();
   const std::size_t row_count = lists_.rows.size() - 1;
   ContactReport<S> report;
-  report.candidates = lists_.slot_of.size();
+  report.candidates = lists_.master_of.size();
   report.rebuilds = lists_.rebuilds;
   report.late = lists_.late;
   touching_.clear();
   if (row_count == 0) return report;
 
+  gather(x, v, F, execute);
   const std::size_t count = (row_count + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
-    Batch result{0, 0, false};
+    Batch result{0, 0};
     for (std::size_t r = q * batch; r < std::min(row_count, (q + 1) * batch); ++r) {
       bool is_deep = false;
       if (touch(r, x, v, F, is_deep))
         batch_rows_[q * batch + result.count++] = static_cast<Index>(r);
-      else
+      else {
         state_[r].penetration = 0;
+        force_[r] = Quad{};
+      }
       result.deep += is_deep;
     }
     batches_[q] = result;
@@ -205,15 +193,15 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
   const bool needs_load = (Friction::needs_load && mu > 0) || damping > 0;
   if (needs_load) weigh(execute);
   execute((touching_.size() + batch - 1) / batch, [&](std::size_t q) {
-    Batch result{0, 0, false};
+    Batch result{0, 0};
     for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
       const Index r = touching_[c];
       const RowState& state = state_[r];
       S load = 0;
       if (needs_load) {
         for (std::size_t e = lists_.rows[r].begin; e < lists_.rows[r + 1].begin; ++e)
-          load += weight_[e] * slot_load_[lists_.slot_of[e]];
-        load += load_[lists_.rows[r].touched];
+          load += weight_[e] * load_[lists_.master_of[e]];
+        load += load_[lists_.rows[r].slave];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       const S normal = normal_force(k, state.penetration, std::min(damping, most), state.slip.dot(state.normal));
@@ -231,7 +219,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
   for (const Index r : touching_)
     if (state_[r].penetration > report.penetration) {
       report.penetration = state_[r].penetration;
-      report.deepest = lists_.rows[r].particle;
+      report.deepest = lists_.awake[lists_.rows[r].slave].particle;
     }
   hand_out(f, execute);
   return report;

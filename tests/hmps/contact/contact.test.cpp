@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bodies.hpp"
+#include "plain_contact.hpp"
 
 namespace {
 
@@ -296,6 +297,64 @@ TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
   const auto report = scene.apply(contact, dt);
   EXPECT_EQ(report.deep, 1U);
   EXPECT_EQ(scene.magnitude(), 0);
+}
+
+/// Three organs, pressed on each other in both roles, that move and deform: every force is that of the
+/// equations taken literally, on whatever lists it was found.
+template <class Ball, class Friction>
+void compare_with_plain(int power, bool corrected) {
+  using Scene = bodies::Scene<double, 3>;
+  Scene scene;
+  const double l0 = 1e-3;
+  const auto plate = scene.add({9, 9, 3}, {0, 0, 0}, l0);
+  const auto block = scene.add({5, 5, 4}, {1.9e-3, 2.2e-3, 3.05e-3}, l0);
+  const auto lid = scene.add({6, 6, 2}, {1.4e-3, 1.1e-3, 7.1e-3}, l0);
+  MetaballContact<double, 3, Ball, Friction> contact({.spacing = l0, .density = 1000, .friction = 0.1});
+  plain::Contact literal{l0, 1000, 0.3 * 1000 / (dt * dt), 0.1, dt, Ball::radius, power, corrected, {}};
+  const auto part = [](const std::vector<Index>& list) { return std::vector<std::size_t>(list.begin(), list.end()); };
+  const auto pair = [&](const auto& a, const auto& b) {
+    contact.add_pair(contact.add_organ({.name = "a", .slaves = a.top, .masters = a.upper, .prescribed = {}}),
+                     contact.add_organ({.name = "b", .slaves = b.bottom, .masters = b.lower, .prescribed = {}}));
+    literal.sides.push_back({part(a.top), part(b.lower)});
+    literal.sides.push_back({part(b.bottom), part(a.upper)});
+  };
+  pair(plate, block);
+  pair(block, lid);
+  scene.shake(0.3, 0.1, 9);
+  const auto start = scene.x;
+  const auto strain = scene.F;
+  std::size_t contacts = 0, sticking = 0;
+  for (int step = 0; step < 400; ++step) {
+    const double phase = std::sin(3.14159265358979323846 * step / 400);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      scene.F[i] = Scene::Tensor::Identity() + (0.3 + phase) * (strain[i] - Scene::Tensor::Identity());
+      const double down = i < plate.all.size() ? 0 : i < plate.all.size() + block.all.size() ? 0.15 : 0.35;
+      scene.x[i] = start[i] + 0.05e-3 * phase * scene.v[i] / 0.3 + l0 * phase * Scene::Point(0.3, 0.1, -down);
+    }
+    const auto report = scene.apply(contact, dt);
+    ASSERT_EQ(report.deep, 0U);
+    if (step % 25 != 0) continue;
+    const auto x = std::vector<plain::Vec>(scene.x.begin(), scene.x.end());
+    const auto v = std::vector<plain::Vec>(scene.v.begin(), scene.v.end());
+    const auto expected = literal(x, v, std::vector<plain::Mat>(scene.F.begin(), scene.F.end()));
+    EXPECT_EQ(report.contacts, expected.contacts) << "step " << step;
+    contacts += report.contacts;
+    sticking += report.sticking;
+    // Z^-1 is right within 1e-6 l0; a stretch of 1.2, friction, and all reactions on a particle, a few times
+    // the force of one slave, multiply that.
+    for (std::size_t i = 0; i < scene.x.size(); ++i)
+      EXPECT_LE((scene.f[i] - expected.f[i]).norm(), 6e-6 * l0 * literal.stiffness) << "step " << step << " of " << i;
+  }
+  EXPECT_GT(contacts, 300U);
+  EXPECT_GT(sticking, 20U);
+  EXPECT_LT(sticking, contacts - 20);
+}
+
+TEST(Plain, EveryForceIsThatOfTheEquationsTakenLiterally) {
+  compare_with_plain<SmoothMetaball, CorrectedFriction>(3, true);
+  compare_with_plain<SmoothMetaball, PaperFriction>(3, false);
+  compare_with_plain<PaperMetaball, CorrectedFriction>(1, true);
+  compare_with_plain<PaperMetaball, PaperFriction>(1, false);
 }
 
 TEST(Overload, UndeformedParticlesNeedNoGradients) {
