@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "organs.hpp"
+#include "rows.hpp"
 
 /// The organs of the swallow as implicit shapes.
 ///
@@ -25,24 +26,6 @@ namespace swallowing {
 
 using Point = hmps::Vector<double, 3>;
 
-/// Rows of numbers, interpolated linearly in the first column and held constant beyond its ends.
-/// The first column ascends.
-template <std::size_t N>
-struct Rows {
-  std::vector<std::array<double, N>> rows;
-  [[nodiscard]] std::array<double, N> operator()(double at) const {
-    if (at <= rows.front()[0]) return rows.front();
-    if (at >= rows.back()[0]) return rows.back();
-    const auto above = std::upper_bound(rows.begin(), rows.end(), at, [](double a, const auto& r) { return a < r[0]; });
-    const auto& b = *above;
-    const auto& a = *(above - 1);
-    const double s = (at - a[0]) / (b[0] - a[0]);
-    std::array<double, N> row;
-    for (std::size_t c = 0; c < N; ++c) row[c] = a[c] + s * (b[c] - a[c]);
-    return row;
-  }
-};
-
 inline constexpr double wall = 4.8;  ///< mm, thickness of the soft sheets
 
 /// The epiglottis: a leaf that stands on the inner front of the larynx and leans back, its edges set
@@ -51,14 +34,15 @@ struct Epiglottis {
   static constexpr double length = 36;
   hmps::Plate<double> leaf{rows(), Point::UnitY(), 2.0};
 
+  /// Angle (rad) of the tangent above the horizontal at `arc` mm from the base: it turns from 76 to 62 degrees.
+  [[nodiscard]] static double angle(double arc) { return (76 - 14 * arc / length) * std::numbers::pi / 180; }
   /// Point of the midline at `arc` mm from the base.
   [[nodiscard]] static Point midline(double arc) {
-    // The tangent turns from 76 to 62 degrees above the horizontal.
     Point p(-10.3, 0, 12.6);
     constexpr int steps = 72;
     for (int k = 0; k < steps; ++k) {
-      const double angle = (76 - 14 * (k + 0.5) / steps * arc / length) * std::numbers::pi / 180;
-      p += arc / steps * Point(std::cos(angle), 0, std::sin(angle));
+      const double at = angle((k + 0.5) / steps * arc);
+      p += arc / steps * Point(std::cos(at), 0, std::sin(at));
     }
     return p;
   }
@@ -80,12 +64,19 @@ struct Epiglottis {
   [[nodiscard]] double operator()(const Point& x) const {
     if (std::abs(x[1]) > 13 || x[0] < -16 || x[0] > 12 || x[2] < 10 || x[2] > 54) return 10;
     const double s = leaf.arc(x);
-    const Point centre = midline(s);
-    const double angle = (76 - 14 * s / length) * std::numbers::pi / 180;
-    const double ahead = (x[0] - centre[0]) * std::cos(angle) + (x[2] - centre[2]) * std::sin(angle);
-    const double behind = (x[0] - centre[0]) * std::sin(angle) - (x[2] - centre[2]) * std::cos(angle);
-    const double normal = behind - 0.012 * x[1] * x[1];
-    return std::max({std::abs(normal) - wall / 2, std::abs(x[1]) - half_width(s), std::abs(ahead) - 0.3});
+    return std::max({std::abs(normal(x)) - wall / 2, std::abs(x[1]) - half_width(s), std::abs(ahead(x)) - 0.3});
+  }
+  /// Distance (mm) above the tip, negative below the base, between them zero.
+  [[nodiscard]] double ahead(const Point& x) const {
+    const double s = leaf.arc(x);
+    const Point off = x - midline(s);
+    return off[0] * std::cos(angle(s)) + off[2] * std::sin(angle(s));
+  }
+  /// Distance (mm) behind the middle surface, whose edges are set back.
+  [[nodiscard]] double normal(const Point& x) const {
+    const double s = leaf.arc(x);
+    const Point off = x - midline(s);
+    return off[0] * std::sin(angle(s)) - off[2] * std::cos(angle(s)) - 0.012 * x[1] * x[1];
   }
 };
 
@@ -264,7 +255,8 @@ struct Anatomy {
   static constexpr double strip = 4.8;      ///< mm, thickness of region G
   static constexpr double strip_width = 5;  ///< mm, its half width
   static constexpr double plate = 3.6;      ///< mm, least thickness of the plates H
-  static constexpr double plate_gap = 1.9;  ///< mm between the wall and the plates H
+  static constexpr double plate_gap = 0.8;  ///< mm between the wall and the plates H
+  static constexpr double plate_from = 25;  ///< degrees from the posterior axis, where the plates begin
 
   /// The organ at `x` (mm) of the body that deforms, `none` in the air and outside. Where shapes overlap they are one
   /// body, and the first in this order names the particle.

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "registration.hpp"
 #include "scene.hpp"
 
 namespace swallowing {
@@ -36,7 +37,9 @@ struct Body {
     const auto inside = [&](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
     points = hmps::fill_lattice(inside, box, spacing, origin);
     const std::size_t drawn = points.size();
-    const auto fill_up = [&](const Point& x) { return anatomy.epiglottis(1e3 * x) < 0.5e3 * spacing; };
+    const auto fill_up = [&](const Point& x) {
+      return anatomy.epiglottis(1e3 * x) < 0.5e3 * spacing && anatomy.epiglottis.ahead(1e3 * x) < 0.3;
+    };
     for (const Point& x : hmps::thicken(hmps::vectors(points), {.spacing = spacing}, fill_up)) points.push_back(x);
     for (std::size_t i = 0; i < points.size(); ++i)
       organ.push_back(i < drawn ? anatomy.organ_at(1e3 * points[i]) : Organ::epiglottis);
@@ -145,36 +148,50 @@ inline void declare_contacts(Scene& scene, const Body& body) {
   }
 }
 
-/// Appends the plates of region H and their contact with the wall to `scene`.
-inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const hmps::Box<double, 3>& box, const Point& origin,
-                             const std::vector<Door>& doors) {
-  const double l0 = scene.spacing;
-  const auto plate = [&](const Point& metres) {
-    const Point x = 1e3 * metres;
-    const double from = wall + Anatomy::plate_gap;
-    const double angle = std::atan2(std::abs(x[1]), x[0] - anatomy.pharynx.profile(x[2])[1]) * 180 / std::numbers::pi;
-    if (angle < 25 || angle > 90 || x[2] > doors.front().top || x[2] < doors.back().bottom) return 1.0;
-    const double d = anatomy.pharynx.channel(x);
-    // Two layers of particles carry all of a metaball wall, whatever the spacing.
-    return std::max(from - d, d - from - std::max(2e3 * l0, Anatomy::plate));
-  };
-  const auto points = hmps::fill_lattice(plate, box, l0, origin);
-  const std::size_t first_door = scene.regions.size();
-  for (std::size_t k = 0; k < doors.size(); ++k)
-    for (const int side : {-1, 1})
-      scene.regions.push_back({"H" + std::to_string(k + 1) + (side < 0 ? " left" : " right"), Region::door,
-                               static_cast<int>(k), double(side)});
+/// Appends the plates of region H and their contact with the wall to `scene`. Nothing is bonded to them, so that they
+/// need no lattice: rows of particles a spacing apart follow the wall at one distance from its drawn inner surface,
+/// whatever the spacing.
+inline void add_constrictors(Scene& scene, const Anatomy& anatomy, double wall_thickness,
+                             const Constrictors& constrictors) {
+  const double l0 = 1e3 * scene.spacing;
+  // Two layers of particles carry all of a metaball wall.
+  const int layers = std::max(2, static_cast<int>(std::lround(Anatomy::plate / l0)));
   auto contact = std::find_if(scene.contacts.begin(), scene.contacts.end(),
                               [](const ContactPair& c) { return c.first == Organ::constrictors; });
-  for (const Point& x : points) {
-    std::size_t door = 0;
-    while (1e3 * x[2] < doors[door].bottom) ++door;
+  const auto add = [&](const Point& x, std::size_t region) {
     const auto index = static_cast<hmps::Index>(scene.reference.size());
     contact->first_slaves.push_back(index);
     contact->first_masters.push_back(index);
-    scene.reference.emplace_back(x);
+    scene.reference.emplace_back(1e-3 * x);
     scene.organ.push_back(Organ::constrictors);
-    scene.region.push_back(static_cast<int>(first_door + 2 * door + (x[1] > 0 ? 1 : 0)));
+    scene.region.push_back(static_cast<int>(region));
+  };
+  int row = 0;
+  for (double z = constrictors.bottom() + l0 / 2; z < constrictors.top(); z += l0, ++row) {
+    for (const int side : {-1, 1})
+      scene.regions.push_back(
+          {hmps::message("H", row, side < 0 ? " left" : " right"), Region::door, row, double(side), z});
+    const std::size_t right = scene.regions.size() - 1;
+    const auto [_, widest, back, half_width, front] = anatomy.pharynx.profile(z);
+    for (int layer = 0; layer < layers; ++layer) {
+      const double distance = wall_thickness + Anatomy::plate_gap + (layer + 0.5) * l0;
+      // Along the ellipse of the channel from its side to the back, in tenths of a degree.
+      double walked = l0;
+      Point last = Point::Zero();
+      for (int step = 0; step <= 900; ++step) {
+        const double s = (90 - 0.1 * step) * std::numbers::pi / 180;
+        const double a = back - widest, c = std::cos(s), d = std::sin(s);
+        const Point normal = Point(c / a, d / half_width, 0).normalized();
+        const Point x = Point(widest + a * c, half_width * d, z) + distance * normal;
+        if (step > 0) walked += (x - last).norm();
+        last = x;
+        if (std::atan2(x[1], x[0] - widest) * 180 / std::numbers::pi < Anatomy::plate_from) break;
+        if (walked < l0) continue;
+        walked -= l0;
+        add(x, right);
+        add(Point(x[0], -x[1], x[2]), right - 1);
+      }
+    }
   }
 }
 
@@ -211,7 +228,14 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const hmps::B
     if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
   }
   detail::declare_contacts(scene, body);
-  if (settings.constrictors) detail::add_constrictors(scene, anatomy, box, origin, read_doors(settings.data));
+  const Registration registration = detail::registration(anatomy, body.points, body.organ, l0);
+  for (Region& region : scene.regions) {
+    if (region.name == "G") region.placement = 1e-3 * registration.vertebrae;
+    if (region.name == "B1") region.placement = 1e-3 * registration.tongue_base;
+    if (region.name == "E" || region.name == "F") region.placement = 1e-3 * registration.epiglottis;
+  }
+  if (settings.constrictors)
+    detail::add_constrictors(scene, anatomy, registration.wall, read_constrictors(settings.data));
   std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
   return scene;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "regions.hpp"
+#include "rows.hpp"
 
 /// The motion model of sections 3.2 to 3.6 of the paper, from the CSV files of a data folder.
 namespace swallowing {
@@ -22,9 +24,26 @@ namespace swallowing {
 /// Where a control region is at a time (s). Metres.
 using RegionMotion = std::function<hmps::Pose<double, 3>(double)>;
 
-/// One pair of plates of region H; mm, degrees, seconds.
-struct Door {
-  double bottom, top, angle, start, duration, release, end, opened;
+namespace detail {
+/// From 0 at s = 0 to 1 at s = 1, at rest at both.
+[[nodiscard]] inline double smooth(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+}  // namespace detail
+
+/// Region H over its height: rows of plates that turn inwards like doors. Levels of constrictors.csv, linear between.
+struct Constrictors {
+  /// z in mm; angle in degrees; start, duration, release, end in s; the share of the angle left at the end
+  Rows<7> levels;
+  [[nodiscard]] double bottom() const { return levels.rows.front()[0]; }
+  [[nodiscard]] double top() const { return levels.rows.back()[0]; }
+  /// The angle in degrees at height `z` (mm) and time `t` (s).
+  [[nodiscard]] double angle(double z, double t) const {
+    const auto [_, angle, start, duration, release, end, opened] = levels(z);
+    return angle *
+           (detail::smooth((t - start) / duration) - (1 - opened) * detail::smooth((t - release) / (end - release)));
+  }
 };
 
 namespace detail {
@@ -43,21 +62,23 @@ namespace detail {
 
 }  // namespace detail
 
-/// The doors of constrictors.csv; they shape the plates, too.
-[[nodiscard]] inline std::vector<Door> read_doors(const std::filesystem::path& folder) {
+/// Reads constrictors.csv, which shapes the plates, too.
+[[nodiscard]] inline Constrictors read_constrictors(const std::filesystem::path& folder) {
   const auto table = hmps::read_csv((folder / "constrictors.csv").string());
-  const auto column = [&](const char* name) { return table.column(name); };
-  std::vector<Door> doors;
+  constexpr std::array columns{"z", "angle", "start", "duration", "release", "end", "opened"};
+  Constrictors constrictors;
+  auto& rows = constrictors.levels.rows;
   for (std::size_t r = 0; r < table.rows(); ++r) {
-    const Door d{table(r, column("z_bottom")), table(r, column("z_top")),    table(r, column("angle")),
-                 table(r, column("start")),    table(r, column("duration")), table(r, column("release")),
-                 table(r, column("end")),      table(r, column("opened"))};
-    hmps::require(d.bottom < d.top && d.duration > 0 && d.start + d.duration < d.release && d.release < d.end,
+    std::array<double, columns.size()> row;
+    for (std::size_t c = 0; c < columns.size(); ++c) row[c] = table(r, table.column(columns[c]));
+    const auto [z, angle, start, duration, release, end, opened] = row;
+    hmps::require((rows.empty() || rows.back()[0] < z) && duration > 0 && start + duration < release && release < end,
                   table.source, " line ", table.lines[r],
-                  ": a plate needs z_bottom < z_top and start + duration < release < end");
-    doors.push_back(d);
+                  ": a level needs a z above that of the row before, and start + duration < release < end");
+    rows.push_back(row);
   }
-  return doors;
+  hmps::require(rows.size() > 1, table.source, " needs two levels at least");
+  return constrictors;
 }
 
 /// The prescribed motion of every control region.
@@ -65,7 +86,7 @@ class Motion {
  public:
   /// Reads the folder. Throws `hmps::InputError` with file and line where it is malformed.
   explicit Motion(const std::filesystem::path& folder)
-      : hyoid_(track(folder, "hyoid")), larynx_(track(folder, "larynx")), doors_(read_doors(folder)) {
+      : hyoid_(track(folder, "hyoid")), larynx_(track(folder, "larynx")), constrictors_(read_constrictors(folder)) {
     const auto follow = hmps::read_csv((folder / "regions.csv").string());
     for (const char* file : {"tongue.csv", "soft_palate.csv", "larynx.csv", "epiglottis.csv"}) {
       const auto table = hmps::read_csv((folder / file).string());
@@ -90,10 +111,13 @@ class Motion {
   [[nodiscard]] hmps::Pose<double, 3> operator()(const Region& region, double t) const {
     using Vector = hmps::Vector<double, 3>;
     hmps::Pose<double, 3> pose;
-    if (region.kind == Region::fixed) return pose;
+    const Vector placement = region.placement * detail::smooth(t / conform);
+    if (region.kind == Region::fixed) {
+      pose.translation = placement;
+      return pose;
+    }
     if (region.kind == Region::door) {
-      const Door& door = doors_[static_cast<std::size_t>(region.number)];
-      const double angle = door.angle * closing(door, t) * std::numbers::pi / 180;
+      const double angle = constrictors_.angle(region.height, t) * std::numbers::pi / 180;
       pose.pivot = 1e-3 * Vector(hinge_x, region.side * hinge_y, 0);
       pose.rotation = hmps::rotation<double>(Vector(0, 0, region.side * angle));
       return pose;
@@ -104,9 +128,10 @@ class Motion {
         pose.pivot = m.pivot;
         pose.translation = m.hyoid * hyoid(t) + m.larynx * larynx(t) + 1e-3 * Vector(own[0], 0, own[1]);
         if (m.sideways)
-          pose.translation[1] = -1e-3 * region.side * own[2];
+          pose.translation[1] -= 1e-3 * region.side * own[2];
         else
           pose.rotation = hmps::rotation<double>(Vector(0, own[2] * std::numbers::pi / 180, 0));
+        pose.translation += pose.rotation * placement;  // It turns with the region.
         return pose;
       }
     throw hmps::InputError(hmps::message("no motion is given for region ", region.name));
@@ -119,6 +144,7 @@ class Motion {
  private:
   static constexpr double hinge_x = 12.8;  ///< mm, calibrated
   static constexpr double hinge_y = 4;     ///< mm
+  static constexpr double conform = 0.5;   ///< s, in which the body takes the shape the swallow starts from
 
   struct Moved {
     int id;
@@ -136,16 +162,8 @@ class Motion {
     const auto d = keys.value(t);
     return {-d[0], 0, d[1]};
   }
-  [[nodiscard]] static double smooth(double s) {
-    s = std::clamp(s, 0.0, 1.0);
-    return s * s * (3 - 2 * s);
-  }
-  [[nodiscard]] static double closing(const Door& d, double t) {
-    return smooth((t - d.start) / d.duration) - (1 - d.opened) * smooth((t - d.release) / (d.end - d.release));
-  }
-
   hmps::Keyframes<2> hyoid_, larynx_;
-  std::vector<Door> doors_;
+  Constrictors constrictors_;
   std::vector<Moved> moved_;
 };
 

@@ -15,12 +15,14 @@ struct Region {
   enum Kind {
     fixed,  ///< does not move: the vertebrae (G), the hard palate, the roof of the pharynx
     moved,  ///< `number` as in data/regions.csv
-    door    ///< one plate of region H; `number` is its row in data/constrictors.csv
+    door    ///< one row of plates of region H, at `height`
   };
   std::string name;
   Kind kind = fixed;
   int number = 0;
-  double side = 0;  ///< -1 or 1 for one of a pair, the sign of y
+  double side = 0;                  ///< -1 or 1 for one of a pair, the sign of y
+  double height = 0;                ///< mm
+  Point placement = Point::Zero();  ///< m, by which it moves in the first half second, see registration.hpp
 };
 
 /// Middle of the control regions of the tongue in degrees about its centre, and their half angle.
@@ -32,7 +34,7 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
 
 /// The control regions of the deforming body, in a fixed order.
 [[nodiscard]] inline std::vector<Region> body_regions() {
-  std::vector<Region> regions{{"G", Region::fixed}};
+  std::vector<Region> regions{{"fixed", Region::fixed}};
   for (int k = 0; k < 8; ++k) regions.push_back({"B" + std::to_string(k), Region::moved, k});
   regions.push_back({"A", Region::moved, 10});
   regions.push_back({"S1", Region::moved, 20});
@@ -42,19 +44,21 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
   regions.push_back({"D right", Region::moved, 31, 1});
   regions.push_back({"E", Region::moved, 40});
   regions.push_back({"F", Region::moved, 41});
+  regions.push_back({"G", Region::fixed});
   return regions;
 }
 
 /// The place in `body_regions` of the region that a particle of `organ` at `x` (mm) belongs to, -1 for none.
 [[nodiscard]] inline int region_at(const Anatomy& anatomy, Organ organ, const Point& x, Model model) {
-  constexpr int G = 0, B = 1, A = 9, S1 = 10, S2 = 11, C = 12, D = 13, E = 15, F = 16;
+  constexpr int fixed = 0, B = 1, A = 9, S1 = 10, S2 = 11, C = 12, D = 13, E = 15, F = 16, G = 17;
   const double y = std::abs(x[1]);
   switch (organ) {
-    case Organ::hard_palate:
     case Organ::vertebrae:
       return G;
+    case Organ::hard_palate:
+      return fixed;
     case Organ::pharynx:
-      return x[2] > 91 ? G : -1;
+      return x[2] > 91 ? fixed : -1;
     case Organ::tongue: {
       const auto [angle, radius, row] = anatomy.tongue.polar(x);
       const double depth = row[1] - radius;
