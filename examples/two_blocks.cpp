@@ -56,8 +56,8 @@ int main() {
     pulled.prescribe(t, dt, x, v);  // forced displacement, which contact has to see
     for (Vector& density : load) density.setZero();
     contact(x, v, F, dt, f);  // what they do to each other
+    pulled.unload(f);         // what is pulled follows no force
     hmps::kick(v, f, rho, dt);
-    pulled.prescribe(t, dt, x, v);
     hmps::drift(x, v, dt);
   };
   //! [composition]

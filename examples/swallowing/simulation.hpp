@@ -59,6 +59,7 @@ class Simulation {
                   .friction = settings.friction,
                   .stiffness = hmps::PenaltyStiffness::fixed(penalty_)}) {
     x_ = scene.reference;
+    force_.restrict_to([&scene](std::size_t i) { return scene.region[i] < 0; });
     for (std::size_t i = 0; i < x_.size(); ++i) gradients().set(i, Eigen::Matrix3d::Identity());
     add_contacts();
     add_regions(motion);
@@ -79,10 +80,10 @@ class Simulation {
     const auto start = std::chrono::steady_clock::now();
     std::fill(f_.begin(), f_.end(), S(0));
     report_ = contact_(x, v, gradients(), time_step_, forces(), execute_);
+    for (const auto& region : regions_) region.unload(forces());
     hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-    prescribe();
     hmps::drift(x, v, time_step_, execute_);
   }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
 #include "hmps/elastic/deformation_gradient.hpp"
 #include "hmps/force/terms.hpp"
 
@@ -18,7 +21,8 @@ namespace hmps {
 /// velocity is read.
 ///
 /// Keeps a reference to the bonds, which must outlive it, and scratch memory, but no state: one
-/// object serves any number of states in turn (not at the same time).
+/// object serves any number of states in turn (not at the same time). `restrict_to` leaves out what
+/// only particles with a forced displacement would need.
 template <Bonds B, class... Terms>
 class InternalForce {
  public:
@@ -48,6 +52,24 @@ class InternalForce {
     }
   }
 
+  /// Evaluates from now on only what the particles need for which `moves(i)` holds: those that follow the force. What is
+  /// written for the others, if anything, means nothing; terms such as `record` see the particles that move, those that
+  /// they are bonded to, and what shares a block with either. Particles deep in a region whose motion is prescribed
+  /// cost nothing but their place then.
+  template <class Moves>
+  requires std::predicate<Moves&, std::size_t> void restrict_to(Moves&& moves) {
+    std::vector<char> sums(bonds_->block_count(), 0), couplings(bonds_->block_count(), 0);
+    for (std::size_t i = 0; i < bonds_->size(); ++i) {
+      if (!moves(i)) continue;
+      const std::size_t block = bonds_->slot(i) / B::width;
+      sums[block] = couplings[block] = 1;
+      bonds_->for_each_bond(i, [&](std::size_t j, const auto&, auto) { couplings[bonds_->slot(j) / B::width] = 1; });
+    }
+    summed_ = listed(sums);
+    coupled_ = listed(couplings);
+    restricted_ = true;
+  }
+
   /// Writes the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s)
   /// into `f`. Throws `InputError` for views of the wrong size; does not look at values: what is not
   /// finite reaches the neighbours and, on a lattice, others of their blocks.
@@ -62,8 +84,8 @@ class InternalForce {
       if constexpr (couples) detail::stage_displacement(*bonds_, block, x, common, displacement_);
       if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
     });
-    if constexpr (couples) execute(bonds_->block_count(), [&](std::size_t block) { couple(block); });
-    execute(bonds_->block_count(), [&](std::size_t block) { sum(block, f); });
+    if constexpr (couples) sweep(coupled_, execute, [&](std::size_t block) { couple(block); });
+    sweep(summed_, execute, [&](std::size_t block) { sum(block, f); });
   }
 
   /// The same for terms that do not read velocities.
@@ -74,9 +96,27 @@ class InternalForce {
 
   [[nodiscard]] const B& bonds() const { return *bonds_; }
   /// Bytes of scratch memory.
-  [[nodiscard]] std::size_t bytes() const { return displacement_.bytes() + velocity_.bytes() + coupling_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() +
+           (coupled_.size() + summed_.size()) * sizeof(Index);
+  }
 
  private:
+  /// The blocks that are marked.
+  [[nodiscard]] static std::vector<Index> listed(const std::vector<char>& marked) {
+    std::vector<Index> blocks;
+    for (std::size_t block = 0; block < marked.size(); ++block)
+      if (marked[block]) blocks.push_back(static_cast<Index>(block));
+    return blocks;
+  }
+  /// Calls `visit(block)` for all blocks or, if the force is restricted, for those in `blocks`.
+  template <class E, class Visit>
+  void sweep(const std::vector<Index>& blocks, const E& execute, Visit&& visit) const {
+    if (restricted_)
+      execute(blocks.size(), [&](std::size_t k) { visit(blocks[k]); });
+    else
+      execute(bonds_->block_count(), visit);
+  }
   template <class Term>
   void add_damping(const Term& term, double& sum) const {
     if constexpr (DampingTerm<Term, K, D>) sum += term.damping(*bonds_);
@@ -144,6 +184,8 @@ class InternalForce {
   const B* bonds_;
   std::tuple<Terms...> terms_;
   SlotArrays<K> displacement_, velocity_, coupling_;
+  bool restricted_ = false;
+  std::vector<Index> coupled_, summed_;  // if restricted, the blocks that each sweep visits
   K damping_ = 0;
 };
 

@@ -81,6 +81,14 @@ class ControlRegion {
     });
   }
 
+  /// Takes the force densities `f` from the region's particles, so that a kick leaves them the velocities that
+  /// `prescribe` gave them.
+  template <class F>
+  void unload(const VectorView<F, D>& f) const {
+    require_size(f, reference_.size(), "force densities");
+    for (const Index i : particles_) f.set(i, Vector<double, D>(Vector<double, D>::Zero()));
+  }
+
   /// Puts the region's particles where they are at time `t` (s), with the velocity of the motion
   /// there (central difference over 2 microseconds): the start of a run within a motion.
   template <class X, class V>

@@ -189,6 +189,43 @@ TEST(InternalForce, RemembersNoState) {
   EXPECT_EQ(f, g);
 }
 
+// What moves feels the same to the bit, and what nothing that moves can feel is not evaluated.
+TEST(InternalForce, LeavesOutWhatOnlyPrescribedParticlesNeed) {
+  const auto scene = scene_of("box whose rows are long in the first direction");
+  const auto bonds = make_bonds<Lattice>(scene);
+  const std::size_t n = scene.x.size();
+  double middle = 0;
+  for (const auto& X : scene.reference) middle += X[1] / static_cast<double>(n);
+  const auto moves = [&](std::size_t i) { return scene.reference[i][1] > middle; };
+
+  std::vector<Eigen::Matrix3d> F(n), G(n, Eigen::Matrix3d::Constant(-7));
+  const auto compose = [&](auto& gradients) {
+    return hmps::internal_force(bonds, hmps::record(hmps::matrices(gradients)), hmps::elastic(law),
+                                hmps::artificial(2e4), hmps::viscous(1000, 2e-3));
+  };
+  auto whole = compose(F), part = compose(G);
+  part.restrict_to(moves);
+  Vectors<3> expected(n), found(n, Eigen::Vector3d::Constant(-7));
+  whole(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(expected));
+  part(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(found));
+
+  std::size_t unwritten = 0, unseen = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (moves(i)) {
+      ASSERT_EQ(found[i], expected[i]) << i;
+      bonds.for_each_bond(i, [&](std::size_t j, const auto&, float) { ASSERT_EQ(G[j], F[j]) << j; });
+    }
+    unwritten += found[i] == Eigen::Vector3d::Constant(-7);
+    unseen += G[i] == Eigen::Matrix3d::Constant(-7);
+  }
+  EXPECT_GT(unwritten, n / 3);
+  EXPECT_GT(unseen, n / 8);
+
+  part.restrict_to([](std::size_t) { return true; });
+  part(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(found));
+  EXPECT_EQ(found, expected);
+}
+
 TEST(InternalForce, RefusesViewsOfTheWrongSize) {
   const auto scene = scene_of("box");
   const auto bonds = make_bonds<Lattice>(scene);

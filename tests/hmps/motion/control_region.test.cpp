@@ -79,6 +79,17 @@ TYPED_TEST(ControlRegionTest, DriftLandsOnTheMotionAfterThousandsOfSteps) {
   for (const std::size_t i : {0u, 2u, 3u, 4u, 7u}) EXPECT_EQ(this->positions[i], this->at_rest[i]);
 }
 
+TYPED_TEST(ControlRegionTest, UnloadsItsOwnParticlesOnly) {
+  using S = typename TestFixture::Scalar;
+  constexpr int D = TestFixture::dimension;
+  const ControlRegion region({1, 5, 6}, hmps::vectors(this->at_rest), this->motion());
+  std::vector<Vector<S, D>> f(8, Vector<S, D>::Constant(S(3)));
+  region.unload(hmps::vectors(f));
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(f[i][0], i == 1 || i == 5 || i == 6 ? S(0) : S(3)) << i;
+  f.pop_back();
+  EXPECT_THROW(region.unload(hmps::vectors(f)), hmps::InputError);
+}
+
 TYPED_TEST(ControlRegionTest, StartsWithoutAJumpOfVelocity) {
   const ControlRegion region({1, 5}, hmps::vectors(this->at_rest), this->motion());
   const double dt = 1e-5;
