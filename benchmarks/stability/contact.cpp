@@ -105,13 +105,17 @@ class Meeting {
     return sum;
   }
   [[nodiscard]] bool finite() { return !hmps::find_fault(body_.x(), body_.v(), hmps::StateLimits{}); }
-  /// Whether a particle of the cube has got below the wall.
+  /// Whether a particle of the cube is below the wall, and not beside it.
   [[nodiscard]] bool passed() const {
-    for (std::size_t i = 0; i < cube_size; ++i)
-      if (body_.position[i][2] < static_cast<S>(-spacing * (settings_.layers - 0.5))) return true;
+    for (std::size_t i = 0; i < cube_size; ++i) {
+      const Vector x = body_.position[i].template cast<double>() / spacing;
+      const auto within = [&](double place) { return place > 1 - margin && place < side - 2 + margin; };
+      if (x[2] < 0.5 - settings_.layers && within(x[0]) && within(x[1])) return true;
+    }
     return false;
   }
 
+  static constexpr int margin = 8;  ///< of a held wall around the cube, in particles
   static constexpr int side = 4;
   static constexpr std::size_t cube_size = 64;
 
@@ -125,9 +129,9 @@ class Meeting {
   static Law law(double factor) { return Law{hmps::MooneyRivlin<>::from_young(young * factor, d1 * factor)}; }
   static std::vector<Vector> points(const Settings& s) {
     auto all = lattice(side, side, side, spacing, Vector(0, 0, 1.5 * spacing));
-    const int margin = s.held ? 4 : 0, width = side + 2 * margin;
-    for (const Vector& X : lattice(width, width, s.layers, spacing,
-                                   Vector(-margin * spacing, -margin * spacing, -(s.layers - 1) * spacing)))
+    const int rim = s.held ? margin : 0, width = side + 2 * rim;
+    for (const Vector& X :
+         lattice(width, width, s.layers, spacing, Vector(-rim * spacing, -rim * spacing, -(s.layers - 1) * spacing)))
       all.push_back(X);
     return all;
   }

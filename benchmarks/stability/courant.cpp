@@ -165,7 +165,7 @@ Growth grow(Tissue<S>& scene, double dt, double noise, double most, int steps) {
     growth.fastest = std::max(growth.fastest, fastest);
     if (fastest > most)
       growth.alternating = std::isfinite(squares) ? std::min(growth.alternating, product / squares) : -1;
-    if (fastest > 1e3 * most) break;
+    if (fastest > (std::is_same_v<S, float> ? 3 : 1000) * most) break;  // no longer a small motion
   }
   restore();
   return growth;
