@@ -21,12 +21,12 @@ void draw(const std::vector<Ratio>& ratios, const fs::path& path) {
   const int row = 18, left = 300, width = 900, top = 70;
   const int height = top + row * static_cast<int>(ratios.size()) + 40;
   examples::Canvas canvas(width, height);
-  const auto at = [&](double ratio) { return left + (width - left - 30) * (ratio - 0.85) / 0.2; };
+  const auto at = [&](double ratio) { return left + (width - left - 30) * (ratio - 0.75) / 0.3; };
   const Colour ink = Colour::hex(0x333333), grey = Colour::hex(0xbbbbbb);
   canvas.text(20, 28, "Step of stable_step (filled) and its limit (ring), over the largest that holds", 15, ink,
               examples::Anchor::left, true);
   canvas.rectangle(at(0.9), top - 10, at(1.0) - at(0.9), height - top - 20, Colour::hex(0xe6f2e6));
-  for (const double tick : {0.85, 0.9, 0.95, 1.0, 1.05}) {
+  for (const double tick : {0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05}) {
     canvas.line(at(tick), top - 10, at(tick), height - 30, grey, 1);
     canvas.text(at(tick), top - 18, places(tick, 2), 12, ink, examples::Anchor::middle);
   }
