@@ -65,5 +65,6 @@
 #include "hmps/stabilise/shear_wave_modulus.hpp"
 #include "hmps/time/probed_scene.hpp"
 #include "hmps/time/stable_step.hpp"
+#include "hmps/time/step_causes.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 #include "hmps/viscosity/viscous.hpp"

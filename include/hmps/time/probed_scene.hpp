@@ -70,6 +70,8 @@ class ProbedScene {
   }
 
   [[nodiscard]] bool damped() const { return damped_; }
+  /// How often the force was evaluated so far.
+  [[nodiscard]] int evaluations() const { return evaluations_; }
   /// Trial velocities that weigh like the trial displacements do at the step `dt`.
   void scale_speed(double dt) {
     if (std::isfinite(dt)) speed_ = length_ / dt;
@@ -113,6 +115,7 @@ class ProbedScene {
 
   void call(const State& x, const State& v, State& f) {
     execute_(size_, [&](std::size_t i) { f[i].setZero(); });
+    ++evaluations_;
     force_(vectors(x), vectors(v), vectors(f));
   }
 
@@ -150,6 +153,7 @@ class ProbedScene {
   State x_, v_, moved_, plus_, minus_;
   double length_, speed_;
   bool damped_ = true;
+  int evaluations_ = 0;
 };
 
 }  // namespace detail

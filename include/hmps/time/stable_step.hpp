@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "hmps/core/executor.hpp"
@@ -27,6 +28,9 @@ struct StableStepSettings {
   int max_iterations = 300;  ///< of one or two pairs of force evaluations each
   double perturbation = 0;   ///< trial displacement over the spacing; 0: 1e-2 for float, 1e-5 for double
   std::uint64_t seed = 1;    ///< of the noise that the search starts from
+  /// The `mode` of an earlier result for the same particles, to start from instead of noise alone; see `stable_step`.
+  std::span<const double> start = {};
+  int refresh_iterations = 4;  ///< made at least when there is a `start`
   /// Whether particle i follows the forces; those with a forced displacement do not. Empty: all do.
   std::function<bool(std::size_t)> moves = {};
 };
@@ -43,6 +47,10 @@ struct StableStep {
   double residual = 0;       ///< relative residual reached
   bool converged = false;    ///< false: raise max_iterations or tolerance; the step is still a cautious one
   int iterations = 0;        ///< made
+  int evaluations = 0;       ///< of the force
+  /// The limiting mode: displacements times the root of density, D numbers per particle, of unit length. What
+  /// `StableStepSettings::start` and `step_causes` take.
+  std::vector<double> mode = {};
 };
 
 namespace detail {
@@ -54,8 +62,16 @@ inline void validate(const StableStepSettings& s) {
   require(s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of stable_step is ", s.tolerance,
           "; it must lie between 0 and 1, for example 0.02");
   require(s.max_iterations > 0, "hmps: stable_step may make ", s.max_iterations, " iterations; allow at least one");
+  require(s.refresh_iterations > 0, "hmps: a refresh of stable_step makes ", s.refresh_iterations,
+          " iterations; allow at least one");
   require(s.perturbation >= 0 && s.perturbation < 0.1, "hmps: the perturbation of stable_step is ", s.perturbation,
           " spacings; it must lie in [0, 0.1)");
+}
+
+/// The length in m of trial displacements of positions in `T`.
+template <class T>
+[[nodiscard]] double trial_displacement(const StableStepSettings& s) {
+  return s.spacing * (s.perturbation > 0 ? s.perturbation : sizeof(T) > 4 ? 1e-5 : 1e-2);
 }
 
 /// Iterations after which a Krylov method started from noise in `dimension` dimensions has a quotient
@@ -66,6 +82,9 @@ inline void validate(const StableStepSettings& s) {
   const double exponent = std::log(1.648 * std::sqrt(static_cast<double>(dimension)) / 1e-3);
   return error > 0 ? static_cast<int>(std::min(std::ceil((exponent / std::sqrt(error) + 1) / 2), 1e6)) : 1;
 }
+
+/// The share of noise in a search that starts from an earlier mode: what a new mode can grow from.
+inline constexpr double fresh_noise = 0.1;
 
 /// The step at which dt^2 k + 2 dt c reaches 4, infinite if it never does.
 [[nodiscard]] inline double step_limit(double k, double c) {
@@ -95,12 +114,18 @@ inline void validate(const StableStepSettings& s) {
 /// iterations (about 25) after which all but one noise in a thousand have seen every eigenvalue
 /// that matters for the margin. A margin of 0 leaves that out.
 ///
+/// To refresh the result during a run give its `mode` as `start`, and another `seed`. The search then starts from that
+/// mode with a tenth of noise and may stop after `refresh_iterations`. It follows a limiting mode that changes; one
+/// that appears elsewhere has so few iterations to rise in that it may take some refreshes until it is seen. A search
+/// without `start`, now and then, is the certain way.
+///
 /// It holds for the state given; stretch and new contacts change it. A contact that is not touched
 /// does not count, one that is just closing counts by half.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not.
-/// Throws `InputError` for bad settings or views, `StateError` if the force of a particle is not finite.
+/// Throws `InputError` for bad settings or views or a `start` of other particles, `StateError` if the force of a
+/// particle is not finite.
 template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Serial>
 [[nodiscard]] StableStep stable_step(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
                                      const Rho& density, const StableStepSettings& settings, const E& execute = {}) {
@@ -117,15 +142,23 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   require_finite(v, "the velocity");
   const auto moves = [&](std::size_t i) { return !settings.moves || settings.moves(i); };
 
-  const double share = settings.perturbation > 0 ? settings.perturbation : sizeof(T) > 4 ? 1e-5 : 1e-2;
-  detail::ProbedScene<std::remove_reference_t<Force>, T, D, Rho, E> scene(force, x, v, density,
-                                                                          share * settings.spacing, execute);
+  detail::ProbedScene<std::remove_reference_t<Force>, T, D, Rho, E> scene(
+      force, x, v, density, detail::trial_displacement<T>(settings), execute);
   detail::Direction<D> best(n), descent(n), previous(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (int c = 0; c < D; ++c)
       best.y[i][c] = detail::noise(settings.seed * 0x100000001b3u + static_cast<std::uint64_t>(i) * D +
                                    static_cast<std::uint64_t>(c));
     if (!moves(i)) best.y[i].setZero();
+  }
+  if (!settings.start.empty()) {
+    require(settings.start.size() == n * D, "hmps: the mode that stable_step starts from has ", settings.start.size(),
+            " numbers, but ", n, " particles in ", D, " dimensions need ", n * D,
+            "; give the mode of an earlier result for the same particles");
+    const double noise = detail::fresh_noise / std::max(std::sqrt(scene.dot(best.y, best.y)), 1e-300);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int c = 0; c < D; ++c)
+        best.y[i][c] = moves(i) ? settings.start[i * D + static_cast<std::size_t>(c)] + noise * best.y[i][c] : 0.0;
   }
   StableStep result;
   require(scene.normalise(best, 1.0), "hmps: no particle of stable_step moves; `moves` must hold for some");
@@ -138,7 +171,8 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   scene.forget_damping_if_none(best);
 
   constexpr double exact = 1e-7;  // what is left of the residual is rounding: nothing can grow out of it
-  const int least = detail::least_iterations(n * D, settings.margin);
+  const int cold = detail::least_iterations(n * D, settings.margin);
+  const int least = settings.start.empty() ? cold : std::min(cold, settings.refresh_iterations);
   double k = 0, c = 0;
   bool have_previous = false, fresh = true;
   for (result.iterations = 1;; ++result.iterations) {
@@ -208,6 +242,9 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   result.omega = std::sqrt(std::max(k, 0.0));
   result.damping = std::max(c, 0.0);
   result.step = (1 - settings.margin) * result.limit / std::sqrt(1 + result.residual);
+  result.evaluations = scene.evaluations();
+  result.mode.reserve(n * D);
+  for (const auto& y : best.y) result.mode.insert(result.mode.end(), y.data(), y.data() + D);
   double sum = 0, squares = 0, largest = -1;
   for (std::size_t i = 0; i < n; ++i) {
     const double energy = best.y[i].squaredNorm();

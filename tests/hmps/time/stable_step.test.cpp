@@ -194,6 +194,51 @@ TEST(StableStep, ParticlesThatDoNotMoveDoNotCount) {
                InputError);
 }
 
+TEST(StableStep, RefreshFollowsAChangeInFewEvaluations) {
+  // Springs of a slowly softening and then stiffening chain with a light particle, whose limit is known.
+  Chain<double, 3> chain{.n = 2000};
+  auto x = chain.positions();
+  std::vector<Vector<double, 3>> v(chain.n, Vector<double, 3>::Zero());
+  std::vector<double> density(chain.n, 1000.0);
+  density[1234] = 100;
+  StableStepSettings settings{.spacing = chain.spacing};
+  StableStep found = stable_step(chain, vectors(x), vectors(v), scalars(density), settings);
+  const int cold = found.evaluations;
+  for (int k = 1; k <= 20; ++k) {
+    chain.stiffness *= k < 10 ? 0.95 : 1.1;
+    const std::vector<double> mode = found.mode;
+    settings.start = mode;
+    settings.seed = static_cast<std::uint64_t>(k + 1);
+    found = stable_step(chain, vectors(x), vectors(v), scalars(density), settings);
+    SCOPED_TRACE(k);
+    EXPECT_EQ(found.particle, 1234u);
+    expect_safe(found, 2 / std::sqrt(4 * chain.stiffness / (100 * (2 - 0.1))), 1e-6);
+    EXPECT_LE(found.evaluations, 14);
+    EXPECT_LT(found.evaluations, cold);
+  }
+}
+
+TEST(StableStep, RefreshesSeeAModeThatAppearsElsewhere) {
+  Chain<double, 3> chain{.n = 2000};
+  auto x = chain.positions();
+  std::vector<Vector<double, 3>> v(chain.n, Vector<double, 3>::Zero());
+  std::vector<double> density(chain.n, 1000.0);
+  density[1234] = 100;
+  StableStepSettings settings{.spacing = chain.spacing};
+  StableStep found = stable_step(chain, vectors(x), vectors(v), scalars(density), settings);
+  density[77] = 40;
+  const double limit = 2 / std::sqrt(4 * chain.stiffness / (40 * (2 - 0.04)));
+  int refreshes = 0;
+  for (; refreshes < 50 && found.particle != 77; ++refreshes) {
+    const std::vector<double> mode = found.mode;
+    settings.start = mode;
+    ++settings.seed;
+    found = stable_step(chain, vectors(x), vectors(v), scalars(density), settings);
+  }
+  EXPECT_LE(refreshes, 3);  // of one before it happened, at a stiffness 2.5 times that of the mode before
+  expect_safe(found, limit, 1e-6);
+}
+
 TEST(StableStep, WithoutAnyForceNothingLimits) {
   std::vector<Vector<double, 2>> x(5, Vector<double, 2>::Zero());
   const auto nothing = [](const auto&, const auto&, const auto&) {};
@@ -220,6 +265,10 @@ TEST(StableStep, BadInputIsRefused) {
   EXPECT_THROW((void)stable_step(chain, vectors(x), vectors(v), -1.0, {.spacing = 1e-3}), InputError);
   EXPECT_THROW((void)stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3, .margin = 1.0}), InputError);
   EXPECT_THROW((void)stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3, .tolerance = 0}), InputError);
+  const std::vector<double> other(6, 0.1);
+  EXPECT_THROW((void)stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3, .start = other}), InputError);
+  EXPECT_THROW((void)stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3, .refresh_iterations = 0}),
+               InputError);
   const auto broken = [](const auto&, const auto&, const auto& f) { f(2, 0) = std::nan(""); };
   try {
     (void)stable_step(broken, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3});
