@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks, by counts, that what a scene leaves out costs nothing.
+
+Usage: check.py FOLDER_OF_THE_PROGRAMS [DOCUMENT COMPILER INCLUDES...]
+
+Runs the scenes of scene.cpp and alone.cpp under callgrind, for four and for twelve steps: the difference is what a step
+executes. With DOCUMENT that page is written, with the compile times of both programs. Exit code 77: not here.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+SKIPPED = 77
+STEPS = (4, 12)
+SCENES = {
+    "alone": "elastic force, in a program that names nothing else",
+    "elastic": "elastic force",
+    "elastic_artificial": "and the stabiliser",
+    "all_terms": "and viscosity",
+    "recorded": "and deformation gradients recorded",
+    "viscous_alone": "viscosity alone",
+    "all_terms_float": "all three, kernels in float",
+    "all_terms_2d": "all three, in two dimensions",
+    "halves": "two bodies, all terms recorded, no contact",
+    "halves_far": "the same, contact declared, out of reach",
+    "halves_touching": "the same, meeting at 1 m/s",
+    "region_unrestricted": "all three, half of the body led by a control region",
+    "region": "the same, force restricted to what moves",
+}
+
+
+def run(command):
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed:\n{done.stderr}")
+    return done
+
+
+def measure(folder, scene):
+    """Instructions of a step and bytes of the components, each per particle."""
+    program = ["costs.alone"] if scene == "alone" else ["costs.scene", scene]
+    program[0] = str(folder / program[0])
+    counts = []
+    for steps in STEPS:
+        done = run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *program, str(steps)])
+        counts.append(int(re.search(r"Collected : (\d+)", done.stderr).group(1)))
+    particles, size = (int(word) for word in done.stdout.split())
+    contacts = re.search(r"(\d+) contacts", done.stderr)
+    return {
+        "instructions": (counts[1] - counts[0]) / (STEPS[1] - STEPS[0]) / particles,
+        "bytes": size / particles,
+        "contacts": int(contacts.group(1)) if contacts else 0,
+    }
+
+
+def bounds(m):
+    """Pairs of what must hold, and whether it does."""
+    def count(scene):
+        return m[scene]["instructions"]
+
+    def size(scene):
+        return m[scene]["bytes"]
+
+    yield "a program that names one force executes what that force alone does in one that knows all, within 0.5 %", (
+        abs(count("alone") / count("elastic") - 1) < 0.005)
+    yield "it takes the same memory", abs(size("alone") - size("elastic")) < 1
+    yield "without the stabiliser fewer instructions are executed", count("elastic") < count("elastic_artificial")
+    yield "without viscosity fewer instructions are executed", count("elastic_artificial") < count("all_terms")
+    yield "without viscosity no velocity is kept: 3 numbers less", (
+        size("all_terms") - size("elastic_artificial") >= 3 * 8)
+    yield "the stabiliser takes no memory", abs(size("elastic_artificial") - size("elastic")) < 1
+    yield "without recording fewer instructions are executed", count("all_terms") < count("recorded")
+    yield "viscosity alone leaves out the first sweep: less than a third", (
+        count("viscous_alone") < count("all_terms") / 3)
+    yield "a particle in two dimensions executes less than a third of one in three", (
+        count("all_terms_2d") < count("all_terms") / 3)
+    yield "it takes less than two thirds of the memory", size("all_terms_2d") < size("all_terms") * 2 / 3
+    yield "kernels in float take less than two thirds of the instructions", (
+        count("all_terms_float") < count("all_terms") * 2 / 3)
+    yield "and of the memory", size("all_terms_float") < size("all_terms") * 2 / 3
+    yield "contact out of reach executes less than 3 % of the scene", count("halves_far") < 1.03 * count("halves")
+    yield "contact out of reach takes less than 10 bytes per particle", size("halves_far") < size("halves") + 10
+    yield "there is contact where bodies meet", m["halves_touching"]["contacts"] > 0
+    yield "which costs more than contact out of reach", count("halves_far") < count("halves_touching")
+    yield "particles deep in a control region cost nothing: less than two thirds where half are led", (
+        count("region") < count("region_unrestricted") * 2 / 3)
+
+
+def compile_time(compiler, includes, source):
+    here = pathlib.Path(__file__).resolve().parent
+    start = time.monotonic()
+    run([compiler, "-std=c++20", "-O2", *[f"-I{path}" for path in includes], "-c", str(here / source), "-o", "/dev/null"])
+    return time.monotonic() - start
+
+
+def write(page, m, held, compiler, includes):
+    lines = [
+        "# What is left out costs nothing",
+        "",
+        "This page is written by `benchmarks/stability/run`; nothing in it is typed by hand. The test `costs` holds the",
+        "bounds below, by counts and not by the clock.",
+        "",
+        "A step of about 1,000 particles (10 x 10 x 10, in two dimensions 32 x 32), in double unless said, on one core.",
+        "Instructions are those of callgrind, for code compiled with `-O2 -mavx2 -mfma`, kick and drift included; bytes are",
+        "what the components keep on the heap, without the user's own state.",
+        "",
+        "| Scene | Instructions per particle and step | Bytes per particle |",
+        "|---|---|---|",
+    ]
+    for scene, words in SCENES.items():
+        lines.append(f"| {words} | {m[scene]['instructions']:,.0f} | {m[scene]['bytes']:.0f} |")
+    lines += ["", "What the test holds:", ""]
+    lines += [f"- {words}" for words in held]
+    first = run([compiler, "--version"]).stdout.splitlines()[0]
+    lines += [
+        "",
+        f"Compiling with `-O2` took {compile_time(compiler, includes, 'alone.cpp'):.1f} s for the program of one force,"
+        f" {compile_time(compiler, includes, 'scene.cpp'):.1f} s for that of all",
+        f"scenes, which includes the whole library (by the clock, {first}, not tested).",
+    ]
+    pathlib.Path(page).write_text("\n".join(lines) + "\n")
+
+
+def main():
+    if shutil.which("valgrind") is None:
+        print("costs are not checked: valgrind is missing")
+        sys.exit(SKIPPED)
+    if not re.search(r"avx2.*fma|fma.*avx2", pathlib.Path("/proc/cpuinfo").read_text()):
+        print("costs are not checked: this machine has no AVX2 and FMA")
+        sys.exit(SKIPPED)
+    folder = pathlib.Path(sys.argv[1])
+    m = {scene: measure(folder, scene) for scene in SCENES}
+    for scene, found in m.items():
+        print(f"{scene:20} {found['instructions']:8.1f} instructions {found['bytes']:6.1f} bytes")
+    checked = list(bounds(m))
+    broken = [words for words, holds in checked if not holds]
+    if len(sys.argv) > 3:
+        write(sys.argv[2], m, [words for words, _ in checked], sys.argv[3], sys.argv[4:])
+    for words in broken:
+        print(f"does not hold: {words}")
+    sys.exit(1 if broken else 0)
+
+
+if __name__ == "__main__":
+    main()
