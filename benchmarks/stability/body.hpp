@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <hmps/hmps.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace stability {
+
+using Vector = hmps::Vector<double, 3>;
+
+/// The paper's soft tissue at its spacing.
+inline constexpr double spacing = 1.2e-3, density = 1000, young = 20e3, d1 = 1e6;
+inline const hmps::MooneyRivlin<> tissue = hmps::MooneyRivlin<>::from_young(young, d1);
+
+template <class S>
+[[nodiscard]] std::string name_of() {
+  return std::is_same_v<S, float> ? "float" : "double";
+}
+
+/// nx x ny x nz particles of a cubic lattice, z fastest, the first at `corner` (m).
+[[nodiscard]] inline std::vector<Vector> lattice(int nx, int ny, int nz, double l0, const Vector& corner) {
+  std::vector<Vector> points;
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j)
+      for (int k = 0; k < nz; ++k) points.push_back(corner + l0 * Vector(i, j, k));
+  return points;
+}
+
+/// The state of particles in `S`, at rest in the reference configuration.
+template <class S>
+struct Body {
+  std::vector<Vector> reference;
+  std::vector<hmps::Vector<S, 3>> position, velocity, load, carry;
+  std::vector<hmps::Matrix<S, 3>> gradient;
+
+  explicit Body(std::vector<Vector> points) : reference(std::move(points)) {
+    const hmps::Vector<S, 3> zero = hmps::Vector<S, 3>::Zero();
+    for (const Vector& X : reference) position.push_back(X.cast<S>());
+    velocity.assign(size(), zero);
+    load = carry = velocity;
+    gradient.assign(size(), hmps::Matrix<S, 3>::Identity());
+  }
+  [[nodiscard]] std::size_t size() const { return reference.size(); }
+  [[nodiscard]] auto X() const { return hmps::vectors(reference); }
+  [[nodiscard]] auto x() { return hmps::vectors(position); }
+  [[nodiscard]] auto v() { return hmps::vectors(velocity); }
+  [[nodiscard]] auto f() { return hmps::vectors(load); }
+  [[nodiscard]] auto F() { return hmps::matrices(gradient); }
+};
+
+/// How a run ended.
+struct Ending {
+  bool alive = true;
+  double time = 0;       ///< s
+  std::string why = {};  ///< it did not go on
+  double fastest = 0;    ///< m/s, of any particle on the way
+};
+
+/// Runs `body` for `duration` in steps `dt` under `force(x, v, f)`, with compensated drift. `prescribe(t)` sets the
+/// velocities of particles that are led, after the kick. Stops at a NaN, at a speed beyond `speed_limit` and, unless
+/// `may_invert`, at det F <= 0.
+template <class S, class Force, class Prescribe>
+Ending run(Body<S>& body, Force& force, double rho, double dt, double duration, double speed_limit, bool may_invert,
+           Prescribe&& prescribe) {
+  Ending ending;
+  const auto steps = static_cast<long>(duration / dt + 0.5);
+  for (long step = 1; step <= steps; ++step) {
+    force(body.x(), body.v(), body.f());
+    hmps::kick(body.v(), body.f(), rho, dt);
+    ending.time = static_cast<double>(step) * dt;
+    prescribe(ending.time);
+    hmps::drift(body.x(), body.v(), dt, hmps::vectors(body.carry));
+    if (step % 5 != 0 && step != steps) continue;
+    const hmps::StateLimits limits{.speed_limit = speed_limit};
+    const auto fault = may_invert ? hmps::find_fault(body.x(), body.v(), limits)
+                                  : hmps::find_fault(body.x(), body.v(), body.F(), limits);
+    for (const auto& v : body.velocity) ending.fastest = std::max(ending.fastest, static_cast<double>(v.norm()));
+    if (!fault) continue;
+    ending.alive = false;
+    ending.why = fault->kind == hmps::FaultKind::not_finite ? "NaN"
+                 : fault->kind == hmps::FaultKind::inverted ? "J <= 0"
+                                                            : "speed";
+    break;
+  }
+  return ending;
+}
+template <class S, class Force>
+Ending run(Body<S>& body, Force& force, double rho, double dt, double duration, double speed_limit, bool may_invert) {
+  return run(body, force, rho, dt, duration, speed_limit, may_invert, [](double) {});
+}
+
+/// The smallest det F of a body.
+template <class S>
+[[nodiscard]] double least_jacobian(const Body<S>& body) {
+  double least = 1e300;
+  for (const auto& F : body.gradient) least = std::min(least, static_cast<double>(F.determinant()));
+  return least;
+}
+
+/// The step to use at rest for a force on a body.
+template <class S, class Force>
+[[nodiscard]] double stable(Body<S>& body, Force& force, double rho, double l0) {
+  return hmps::stable_step(force, body.x(), body.v(), rho, {.spacing = l0}).step;
+}
+
+}  // namespace stability

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "body.hpp"
+#include "parts.hpp"
+
+namespace stability {
+namespace {
+
+/// A cube above a wall or above another cube, which are parts of one set of particles, the cube first.
+template <class S>
+class Meeting {
+ public:
+  struct Settings {
+    int layers = 2;      ///< of the wall
+    bool held = true;    ///< the lower part does not move
+    double ratio = 0.3;  ///< k~
+    double friction = 0;
+    double stiffness = 1;  ///< of the cube over that of the lower part, in all moduli
+    double heaviness = 1;  ///< of the cube over that of the lower part
+    double contact_density = density;
+  };
+
+  explicit Meeting(const Settings& s)
+      : settings_(s),
+        body_(points(s)),
+        bonds_(body_.X().part(0, cube_size), {.spacing = spacing}),
+        lower_(body_.X().part(s.held ? 0 : cube_size, s.held ? cube_size : body_.size() - cube_size),
+               {.spacing = spacing}),
+        upper_force_(bonds_, hmps::elastic(law(s.stiffness)), hmps::artificial(young / 2 * s.stiffness),
+                     hmps::record(body_.F().part(0, cube_size))),
+        lower_force_(
+            lower_, hmps::elastic(law(1)), hmps::artificial(young / 2),
+            hmps::record(body_.F().part(s.held ? 0 : cube_size, s.held ? cube_size : body_.size() - cube_size))),
+        contact_({.spacing = spacing,
+                  .density = s.contact_density,
+                  .friction = s.friction,
+                  .stiffness = hmps::PenaltyStiffness::ratio(s.ratio)}),
+        density_(body_.size(), density) {
+    for (std::size_t i = 0; i < cube_size; ++i) density_[i] *= s.heaviness;
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+      const auto index = static_cast<hmps::Index>(i);
+      const bool outside = i >= cube_size || is_face(i);
+      if (i < cube_size) {
+        if (outside) skin_[0].push_back(index);
+        wall_[0].push_back(index);
+      } else {
+        if (body_.reference[i][2] > -0.5 * spacing) skin_[1].push_back(index);
+        wall_[1].push_back(index);
+      }
+    }
+    const auto a = contact_.add_organ({"cube", skin_[0], wall_[0]});
+    hmps::Organ wall{"wall", skin_[1], wall_[1]};
+    if (s.held) wall.prescribed = [](hmps::Index) { return true; };
+    contact_.add_pair(a, contact_.add_organ(wall));
+  }
+
+  Body<S>& body() { return body_; }
+  /// Slaves reported as deep, and all contacts, so far.
+  [[nodiscard]] std::size_t deep() const { return deep_; }
+  [[nodiscard]] std::size_t contacts() const { return contacts_; }
+
+  /// The stable step of the parts on their own.
+  [[nodiscard]] double stable() {
+    const auto part = [&](auto& force, std::size_t first, std::size_t count) {
+      return hmps::stable_step(force, body_.x().part(first, count), body_.v().part(first, count), density_[first],
+                               {.spacing = spacing})
+          .step;
+    };
+    double dt = part(upper_force_, 0, cube_size);
+    if (!settings_.held) dt = std::min(dt, part(lower_force_, cube_size, body_.size() - cube_size));
+    return dt;
+  }
+
+  void step(double dt) {
+    const auto x = body_.x(), v = body_.v(), f = body_.f();
+    const auto rho = hmps::scalars(density_);
+    for (auto& load : body_.load) load.setZero();
+    forces(x, v, f);
+    hmps::kick(v, f, rho, dt);
+    hold();
+    for (auto& load : body_.load) load.setZero();
+    const auto report = contact_(x, v, body_.F(), dt, f);
+    deep_ += report.deep;
+    contacts_ += report.contacts;
+    hmps::kick(v, f, rho, dt);
+    hold();
+    hmps::drift(x, v, dt, hmps::vectors(body_.carry));
+  }
+
+  /// Kinetic, strain and artificial energy in J.
+  [[nodiscard]] double energy() {
+    const double volume = spacing * spacing * spacing;
+    double sum = hmps::kinetic_energy(body_.v(), hmps::scalars(density_), volume) +
+                 hmps::strain_energy(body_.F().part(0, cube_size), law(settings_.stiffness), volume) +
+                 hmps::artificial_energy(bonds_, body_.x().part(0, cube_size), body_.F().part(0, cube_size),
+                                         young / 2 * settings_.stiffness, volume);
+    const std::size_t rest = body_.size() - cube_size;
+    if (!settings_.held)
+      sum += hmps::strain_energy(body_.F().part(cube_size, rest), law(1), volume) +
+             hmps::artificial_energy(lower_, body_.x().part(cube_size, rest), body_.F().part(cube_size, rest),
+                                     young / 2, volume);
+    return sum;
+  }
+  [[nodiscard]] bool finite() { return !hmps::find_fault(body_.x(), body_.v(), hmps::StateLimits{}); }
+  /// Whether a particle of the cube has got below the wall.
+  [[nodiscard]] bool passed() const {
+    for (std::size_t i = 0; i < cube_size; ++i)
+      if (body_.position[i][2] < static_cast<S>(-spacing * (settings_.layers - 0.5))) return true;
+    return false;
+  }
+
+  static constexpr int side = 4;
+  static constexpr std::size_t cube_size = 64;
+
+ private:
+  using List = hmps::LatticeBonds<S, 3>;
+  using Law = hmps::Continued<hmps::MooneyRivlin<>>;
+  using Force = decltype(hmps::internal_force(std::declval<const List&>(), std::declval<hmps::Elastic<Law>>(),
+                                              std::declval<hmps::Artificial<double>>(),
+                                              hmps::record(std::declval<hmps::MatrixView<S, 3>>())));
+
+  static Law law(double factor) { return Law{hmps::MooneyRivlin<>::from_young(young * factor, d1 * factor)}; }
+  static std::vector<Vector> points(const Settings& s) {
+    auto all = lattice(side, side, side, spacing, Vector(0, 0, 1.5 * spacing));
+    const int margin = s.held ? 4 : 0, width = side + 2 * margin;
+    for (const Vector& X : lattice(width, width, s.layers, spacing,
+                                   Vector(-margin * spacing, -margin * spacing, -(s.layers - 1) * spacing)))
+      all.push_back(X);
+    return all;
+  }
+  [[nodiscard]] static bool is_face(std::size_t i) {
+    const auto n = static_cast<std::size_t>(side);
+    for (const std::size_t c : {i % n, i / n % n, i / (n * n)})
+      if (c == 0 || c == n - 1) return true;
+    return false;
+  }
+  template <class X, class V, class F>
+  void forces(const X& x, const V& v, const F& f) {
+    upper_force_(x.part(0, cube_size), v.part(0, cube_size), f.part(0, cube_size));
+    const std::size_t rest = body_.size() - cube_size;
+    if (!settings_.held) lower_force_(x.part(cube_size, rest), v.part(cube_size, rest), f.part(cube_size, rest));
+  }
+  void hold() {
+    for (std::size_t i = cube_size; settings_.held && i < body_.size(); ++i) body_.velocity[i].setZero();
+  }
+
+  Settings settings_;
+  Body<S> body_;
+  List bonds_, lower_;
+  Force upper_force_, lower_force_;
+  hmps::MetaballContact<S, 3> contact_;
+  std::vector<double> density_;
+  std::vector<hmps::Index> skin_[2], wall_[2];
+  std::size_t deep_ = 0, contacts_ = 0;
+};
+
+/// What becomes of a cube thrown at a held wall: nothing said if it bounces off.
+template <class S>
+std::string thrown(int layers, double share, double speed) {
+  Meeting<S> scene({.layers = layers});
+  const double dt = share * std::sqrt(1 - 0.3) * scene.stable();
+  for (std::size_t i = 0; i < Meeting<S>::cube_size; ++i) scene.body().velocity[i][2] = static_cast<S>(-speed);
+  const auto steps = std::min(static_cast<int>((0.005 + 8 * spacing / speed) / dt), 4000);
+  for (int step = 0; step < steps; ++step) {
+    try {
+      scene.step(dt);
+    } catch (const hmps::StateError&) {
+      return "breaks up";
+    }
+    if (!scene.finite()) return "breaks up";
+    if (scene.passed()) return scene.deep() > 0 ? "passes, reported as deep" : "passes unreported";
+  }
+  return "";
+}
+
+/// A cube that falls on another at 1 m/s and, with friction, 1 m/s along it: the largest energy on the way over that of
+/// the start.
+template <class S>
+std::string collide(const typename Meeting<S>::Settings& settings, double sideways) {
+  Meeting<S> scene(settings);
+  const double dt = 0.5 * scene.stable();
+  for (std::size_t i = 0; i < Meeting<S>::cube_size; ++i)
+    scene.body().velocity[i] = hmps::Vector<S, 3>(static_cast<S>(sideways), 0, -1);
+  const double start = scene.energy();
+  double most = start;
+  const double duration = 8e-3;
+  const auto steps = static_cast<long>(duration / dt);
+  for (long step = 1; step <= steps; ++step) {
+    try {
+      scene.step(dt);
+    } catch (const hmps::StateError&) {
+      return "breaks up after " + digits(1e3 * static_cast<double>(step) * dt) + " ms";
+    }
+    if (!scene.finite()) return "NaN after " + digits(1e3 * static_cast<double>(step) * dt) + " ms";
+    if (step % std::max(steps / 400, 1L) == 0) most = std::max(most, scene.energy());
+  }
+  return scene.contacts() > 0 ? places(most / start, 3) : "no contact";
+}
+
+}  // namespace
+
+Table impact(bool quick) {
+  Table table{"impact",
+              {"Layers of the wall", "Step / stable", "Double: least speed that fails, m/s", "How", "Float", "How"}};
+  for (const int layers : quick ? std::vector<int>{2} : std::vector<int>{1, 2, 3, 4})
+    for (const double share : quick ? std::vector<double>{0.5} : std::vector<double>{0.1, 0.25, 0.5, 0.9}) {
+      std::vector<std::string> row{std::to_string(layers), digits(share)};
+      const auto sweep = [&](auto s) {
+        const double last = quick ? 1.1 : 200;
+        std::string how;
+        double speed = 1;
+        for (; speed < last; speed *= std::sqrt(2.0)) {
+          how = thrown<decltype(s)>(layers, share, speed);
+          if (!how.empty()) break;
+        }
+        row.push_back(how.empty() ? "survives " + digits(speed / std::sqrt(2.0)) : digits(speed));
+        row.push_back(how.empty() ? "-" : how);
+        if (quick) table.check(how.empty(), "a cube at 1 m/s on a wall of two layers " + how);
+      };
+      sweep(double{});
+      sweep(float{});
+      table.rows.push_back(row);
+    }
+  return table;
+}
+
+Table partners(bool quick) {
+  Table table{"partners", {"Cube over its partner", "Value", "rho of the contact", "Energy, double", "Float"}};
+  const auto add = [&](const std::string& name, double value, const std::string& rho, double heavy, double stiff,
+                       double contact_density, double friction, double sideways) {
+    const auto settings = [&](auto s) {
+      return typename Meeting<decltype(s)>::Settings{.layers = 4,
+                                                     .held = false,
+                                                     .friction = friction,
+                                                     .stiffness = stiff,
+                                                     .heaviness = heavy,
+                                                     .contact_density = contact_density};
+    };
+    table.rows.push_back({name, digits(value), rho, collide<double>(settings(double{}), sideways),
+                          collide<float>(settings(float{}), sideways)});
+  };
+  const std::vector<double> ratios =
+      quick ? std::vector<double>{1} : std::vector<double>{1e-3, 1e-2, 0.1, 1, 10, 100, 1e3};
+  for (const double r : ratios) {
+    add("mass", r, "of the lighter", r, 1, density * std::min(r, 1.0), 0, 0);
+    if (r != 1) add("mass", r, "of the heavier", r, 1, density * std::max(r, 1.0), 0, 0);
+  }
+  for (const double r : ratios) add("stiffness", r, "of both", 1, r, density, 0, 0);
+  for (const double mu : quick ? std::vector<double>{0.3} : std::vector<double>{0, 0.1, 0.3, 1, 3, 10})
+    add("friction coefficient", mu, "of both", 1, 1, density, mu, 1);
+  return table;
+}
+
+}  // namespace stability

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "body.hpp"
+#include "parts.hpp"
+
+namespace stability {
+namespace {
+
+/// One scene whose largest step is measured.
+struct Case {
+  std::string group = {}, name = {};
+  int layers = 8;        ///< particles through the sheet
+  double radius = 1.75;  ///< r_e / l0
+  double modulus = 1;    ///< E_hat / E
+  double ratio = 300;    ///< kappa / mu
+  double stretch = 1;    ///< along z, at constant volume
+  double viscosity = 0;  ///< m2/s
+  double penalty = 0;    ///< k dt_c^2 / rho, dt_c the limit without contact; two bodies then
+  double dt_c = 0;       ///< s
+};
+
+/// The composed force of a case, on one body or two that are pressed together.
+template <class S>
+class Tissue {
+ public:
+  explicit Tissue(const Case& c)
+      : body_(points(c)),
+        law_(hmps::MooneyRivlin<>::from_young(young, c.ratio * young / 6)),
+        bonds_(body_.X(), {.spacing = spacing, .radius_ratio = c.radius},
+               [half = split(c)](std::size_t i, std::size_t j) { return (i < half) == (j < half); }),
+        elastic_(bonds_, hmps::elastic(law_)),
+        stabiliser_(bonds_, hmps::artificial(c.modulus * young)),
+        viscous_(bonds_, hmps::viscous(density, c.viscosity)),
+        whole_(bonds_, hmps::elastic(law_), hmps::artificial(c.modulus * young), hmps::viscous(density, c.viscosity),
+               hmps::record(body_.F())),
+        contact_({.spacing = spacing, .density = density, .stiffness = stiffness(c)}) {
+    const double across = 1 / std::sqrt(c.stretch);
+    for (auto& x : body_.position) x = x.cwiseProduct(Vector(across, across, c.stretch).cast<S>());
+    if (c.penalty > 0) press(c);
+  }
+
+  Body<S>& body() { return body_; }
+  [[nodiscard]] const auto& bonds() const { return bonds_; }
+  [[nodiscard]] bool touches() const { return !skin_[0].empty(); }
+  [[nodiscard]] double sound() const { return hmps::sound_speed(law_, density); }
+
+  template <class X, class V, class F>
+  void operator()(const X& x, const V& v, const F& f) {
+    whole_(x, v, f);
+    touch(x, v, f);
+  }
+  template <class X, class V, class F>
+  void touch(const X& x, const V& v, const F& f) {
+    if (touches()) contact_(x, v, body_.F(), 2e-6, f);
+  }
+
+  [[nodiscard]] std::vector<hmps::StepCause> causes(const hmps::StableStep& found,
+                                                    const hmps::StableStepSettings& settings) {
+    const auto contact = [this](const auto& x, const auto& v, const auto& f) { touch(x, v, f); };
+    return hmps::step_causes(found, body_.x(), body_.v(), density, settings, hmps::NamedForce{"elastic", elastic_},
+                             hmps::NamedForce{"stabiliser", stabiliser_}, hmps::NamedForce{"viscosity", viscous_},
+                             hmps::NamedForce{"contact", contact});
+  }
+
+ private:
+  using List = hmps::BondList<S, 3>;
+  static constexpr int side = 10;
+  static constexpr double pressure = 200;  ///< Pa, small against Young's modulus: what is pressed must not buckle
+
+  static std::size_t split(const Case& c) { return static_cast<std::size_t>(side * side * c.layers); }
+  static std::vector<Vector> points(const Case& c) {
+    // Layers lie along x, so that the two bodies follow each other in memory.
+    return lattice(c.penalty > 0 ? 2 * c.layers : c.layers, side, side, spacing, Vector::Constant(0.01));
+  }
+  static hmps::PenaltyStiffness stiffness(const Case& c) {
+    return c.penalty > 0 ? hmps::PenaltyStiffness::fixed(c.penalty * density / (c.dt_c * c.dt_c))
+                         : hmps::PenaltyStiffness::ratio(0.3);
+  }
+  /// Moves the second body towards the first until the contact presses it back by `pressure`.
+  void press(const Case& c) {
+    std::vector<std::size_t> second;
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+      const auto layer = static_cast<int>(i) / (side * side);
+      const std::size_t half = layer < c.layers ? 0 : 1;
+      if (half == 1) second.push_back(i);
+      const int depth = half == 0 ? c.layers - 1 - layer : layer - c.layers;
+      if (depth < 1) skin_[half].push_back(static_cast<hmps::Index>(i));
+      if (depth < 3) wall_[half].push_back(static_cast<hmps::Index>(i));
+    }
+    const auto a = contact_.add_organ({"first", skin_[0], wall_[0]});
+    const auto b = contact_.add_organ({"second", skin_[1], wall_[1]});
+    contact_.add_pair(a, b);
+    const auto start = body_.position;
+    double open = -0.2 * spacing, closed = 0.2 * spacing;
+    while (closed - open > 1e-12) {
+      const double shift = (open + closed) / 2;
+      body_.position = start;
+      for (const std::size_t i : second) body_.position[i][0] -= static_cast<S>(shift);
+      for (auto& load : body_.load) load.setZero();
+      touch(body_.x(), body_.v(), body_.f());
+      double push = 0;
+      for (const std::size_t i : second) push += static_cast<double>(body_.load[i][0]);
+      (push * spacing / (side * side) > pressure ? closed : open) = shift;
+    }
+  }
+
+  Body<S> body_;
+  hmps::MooneyRivlin<> law_;
+  List bonds_;
+  hmps::InternalForce<List, hmps::Elastic<hmps::MooneyRivlin<>>> elastic_;
+  hmps::InternalForce<List, hmps::Artificial<double>> stabiliser_;
+  hmps::InternalForce<List, hmps::Viscous> viscous_;
+  decltype(hmps::internal_force(std::declval<const List&>(), std::declval<hmps::Elastic<hmps::MooneyRivlin<>>>(),
+                                std::declval<hmps::Artificial<double>>(), std::declval<hmps::Viscous>(),
+                                hmps::record(std::declval<hmps::MatrixView<S, 3>>()))) whole_;
+  hmps::MetaballContact<S, 3> contact_;
+  std::vector<hmps::Index> skin_[2], wall_[2];
+};
+
+/// How noise of velocity has grown.
+struct Growth {
+  double fastest;      ///< m/s, at any time
+  double alternating;  ///< least cosine between the velocities of one step and the next while above `most`
+};
+template <class S>
+Growth grow(Tissue<S>& scene, double dt, double noise, double most, int steps) {
+  Body<S>& body = scene.body();
+  const auto start = body.position;
+  const auto restore = [&] {
+    body.position = start;
+    for (auto& v : body.velocity) v.setZero();
+    for (auto& carry : body.carry) carry.setZero();
+  };
+  restore();
+  scene(body.x(), body.v(), body.f());
+  const auto dead = body.load;  // holds what the force is at the start
+  for (std::size_t i = 0; i < body.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      body.velocity[i][c] = static_cast<S>(noise * hmps::detail::noise(3 * i + static_cast<std::uint64_t>(c)));
+  auto before = body.velocity;
+  Growth growth{0, 1};
+  for (int step = 1; step <= steps; ++step) {
+    try {
+      scene(body.x(), body.v(), body.f());
+    } catch (const hmps::StateError&) {  // contact refuses positions that are not finite
+      growth = {1e300, -1};
+      break;
+    }
+    for (std::size_t i = 0; i < body.size(); ++i) body.load[i] -= dead[i];
+    if (step % 20 == 0) before = body.velocity;
+    hmps::kick(body.v(), body.f(), density, dt);
+    hmps::drift(body.x(), body.v(), dt, hmps::vectors(body.carry));
+    if (step % 20 != 0) continue;
+    double fastest = 0, product = 0, squares = 0;
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      const auto speed = static_cast<double>(body.velocity[i].norm());
+      fastest = std::isfinite(speed) ? std::max(fastest, speed) : 1e300;
+      product += static_cast<double>(body.velocity[i].dot(before[i]));
+      squares += static_cast<double>(body.velocity[i].norm() * before[i].norm());
+    }
+    growth.fastest = std::max(growth.fastest, fastest);
+    if (fastest > most)
+      growth.alternating = std::isfinite(squares) ? std::min(growth.alternating, product / squares) : -1;
+    if (fastest > 1e3 * most) break;
+  }
+  restore();
+  return growth;
+}
+
+/// Whether the step `dt` holds. Without contact: noise does not grow by alternating from step to step (what grows
+/// without is physical, such as buckling). With contact, where pressed faces chatter at any step, `chatter` in m/s is
+/// how fast they do at half the step, and three times that is too much.
+template <class S>
+bool holds(Tissue<S>& scene, double dt, double chatter) {
+  constexpr bool single = std::is_same_v<S, float>;
+  const double noise = single ? 1e-3 : 1e-9, most = noise * (single ? 300 : 1e5);
+  if (chatter > 0) return grow(scene, dt, noise, 1e3, 3000).fastest < 3 * chatter;
+  return grow(scene, dt, noise, most, 1500).alternating > -0.8;
+}
+
+/// The largest step that holds, to 0.2 %.
+template <class S>
+double measured(Tissue<S>& scene, double guess) {
+  const double chatter = scene.touches() ? grow(scene, 0.5 * guess, 1e-9, 1e3, 6000).fastest : 0.0;
+  const auto held = [&](double dt) { return holds(scene, dt, chatter); };
+  double low = 0.8 * guess, high = 1.2 * guess;
+  while (!held(low)) high = low, low *= 0.8;
+  while (held(high)) low = high, high *= 1.2;
+  while (high / low > 1.002) {
+    const double middle = std::sqrt(low * high);
+    (held(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// What was found of one case in one scalar type.
+struct Found {
+  double measured, step, limit;
+  int evaluations;
+  std::string cause;
+  double support, sound;
+};
+template <class S>
+Found find(const Case& c) {
+  Tissue<S> scene(c);
+  hmps::StableStepSettings settings{.spacing = spacing};
+  if (c.penalty > 0) settings.perturbation = 1e-6;  // far less than the penetration
+  const auto found = hmps::stable_step(scene, scene.body().x(), scene.body().v(), density, settings);
+  std::string text;
+  for (const auto& cause : scene.causes(found, settings))
+    if (std::abs(cause.share) > 0.005)
+      text += (text.empty() ? "" : ", ") + cause.name + " " + places(100 * cause.share, 0) + " %";
+  return {measured(scene, found.limit),
+          found.step,
+          found.limit,
+          found.evaluations,
+          text,
+          hmps::relative_support(scene.bonds(), found.particle),
+          scene.sound()};
+}
+
+std::vector<Case> cases(bool quick) {
+  if (quick)
+    return {{.group = "layers", .name = "2", .layers = 2},
+            {.group = "layers", .name = "4", .layers = 4},
+            {.group = "viscosity", .name = "0.02 m2/s", .layers = 3, .viscosity = 0.02}};
+  std::vector<Case> all;
+  for (const int n : {2, 3, 4, 8}) all.push_back({.group = "layers", .name = std::to_string(n), .layers = n});
+  for (const double r : {1.5, 2.1, 2.5}) all.push_back({.group = "r_e / l0", .name = digits(r), .radius = r});
+  for (const double e : {0.0, 0.5, 2.0}) all.push_back({.group = "E_hat / E", .name = digits(e), .modulus = e});
+  for (const double k : {3.0, 30.0, 3000.0}) all.push_back({.group = "kappa / mu", .name = digits(k), .ratio = k});
+  for (const double s : {0.3, 0.5, 0.7, 1.5, 2.0, 3.0, 5.0})
+    all.push_back({.group = "stretch", .name = digits(s), .layers = 4, .stretch = s});
+  for (const double nu : {2e-3, 0.02, 0.1})
+    all.push_back({.group = "viscosity", .name = digits(nu) + " m2/s", .viscosity = nu});
+  return all;
+}
+
+}  // namespace
+
+Table courant(bool quick, std::vector<Ratio>& ratios) {
+  Table table{"courant",
+              {"Scene", "Value", "Largest step, l0 / c_p", "Step / largest, double", "Limit / largest, double",
+               "Step / largest, float", "Support", "Cause", "Evaluations"}};
+  double dt_c = 0;
+  const auto add = [&](const Case& c) {
+    // Contact by a penetration of a hundred-thousandth of a spacing is beyond float.
+    const bool both = c.penalty == 0;
+    const Found d = find<double>(c), f = both ? find<float>(c) : d;
+    table.rows.push_back({c.group, c.name, places(d.measured * d.sound / spacing), places(d.step / d.measured),
+                          places(d.limit / d.measured), both ? places(f.step / f.measured) : "-", places(d.support, 2),
+                          d.cause, std::to_string(d.evaluations)});
+    for (const auto& [found, scalar] : {std::pair(d, "double"), std::pair(f, "float")}) {
+      const std::string scene = c.group + " " + c.name;
+      if (!both && scalar != std::string("double")) continue;
+      ratios.push_back({scene + ", " + scalar, found.step / found.measured, found.limit / found.measured});
+      // The limit is measured from below, to 0.2 %.
+      table.check(found.step < 1.002 * found.measured, scene + " in " + scalar + ": the step is above the limit");
+      // Pressed faces chatter, so that their limit is not sharp: only the safe side is held there.
+      table.check(found.step > 0.9 * found.measured || !both,
+                  scene + " in " + scalar + ": the step is 10 % below the limit");
+    }
+    return d;
+  };
+  for (const Case& c : cases(quick)) {
+    const Found d = add(c);
+    if (c.group == "layers" && c.layers == 4) dt_c = d.measured;  // the bodies in contact are as thick
+  }
+  for (const double k : quick ? std::vector<double>{1} : std::vector<double>{0.1, 0.3, 1, 3, 10}) {
+    const Case c{.group = "contact, k dt_c^2 / rho", .name = digits(k), .layers = 4, .penalty = k, .dt_c = dt_c};
+    const Found d = add(c);
+    // dt = dt_c sqrt(1 - k~) with k~ = k dt^2 / rho: solved for dt.
+    table.rows.push_back({"by dt_c sqrt(1 - k~)", digits(k), places(dt_c / std::sqrt(1 + k) * d.sound / spacing), "",
+                          "", "", "", "rule / largest: " + places(dt_c / std::sqrt(1 + k) / d.measured), ""});
+  }
+  return table;
+}
+
+Table refresh(bool quick) {
+  Table table{
+      "refresh",
+      {"Stretch", "Step of a new search, us", "Evaluations", "Step of a refresh, us", "Evaluations", "Refresh / new"}};
+  const int count = quick ? 5 : 20;
+  hmps::StableStep kept;
+  for (int k = 0; k <= count; ++k) {
+    const double stretch = 1 + 2.0 * k / count;
+    Tissue<double> scene({.layers = 4, .stretch = stretch});
+    hmps::StableStepSettings settings{.spacing = spacing};
+    const auto search = [&] { return hmps::stable_step(scene, scene.body().x(), scene.body().v(), density, settings); };
+    const auto fresh = search();
+    if (k == 0) {
+      kept = fresh;
+      continue;
+    }
+    const std::vector<double> mode = kept.mode;
+    settings.start = mode;
+    settings.seed = static_cast<std::uint64_t>(k + 1);
+    kept = search();
+    table.rows.push_back({digits(stretch), digits(1e6 * fresh.step), std::to_string(fresh.evaluations),
+                          digits(1e6 * kept.step), std::to_string(kept.evaluations), places(kept.step / fresh.step)});
+    table.check(kept.step < fresh.limit, "the refreshed step exceeds the limit at stretch " + digits(stretch));
+    table.check(2 * kept.evaluations < fresh.evaluations,
+                "a refresh costs half a search at stretch " + digits(stretch));
+  }
+  return table;
+}
+
+}  // namespace stability

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "page.hpp"
+
+namespace stability {
+
+// The groups of the survival map. `quick` leaves out most of a group, and keeps what must hold.
+
+/// The estimate of `stable_step` over the limit found by bisection, for the picture.
+struct Ratio {
+  std::string scene;
+  double step, limit;
+};
+[[nodiscard]] Table courant(bool quick, std::vector<Ratio>& ratios);  ///< largest step against its estimate
+[[nodiscard]] Table refresh(bool quick);                              ///< cost and safety of refreshing the estimate
+[[nodiscard]] Table inversion(bool quick);                            ///< det F through zero, and back
+[[nodiscard]] Table deformation(bool quick);                          ///< squeeze, twist, bend
+[[nodiscard]] Table impact(bool quick);                               ///< speed at which a wall is passed
+[[nodiscard]] Table partners(bool quick);                             ///< ratios of mass and stiffness, friction
+[[nodiscard]] Table endurance(bool quick);                            ///< a million steps
+[[nodiscard]] Table door();                                           ///< what is refused, in which words
+
+}  // namespace stability
