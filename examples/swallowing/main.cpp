@@ -1,14 +1,61 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <fstream>
+#include <future>
 #include <iostream>
+#include <mutex>
+#include <vector>
 
 #include "../common/files.hpp"
 #include "comparison.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "run_case.hpp"
+
+namespace swallowing {
+namespace {
+
+void report(const Summary& summary) {
+  std::cout << summary.case_name << ": ";
+  if (summary.fold_time)
+    std::cout << "folds below the horizontal at " << *summary.fold_time << " s";
+  else
+    std::cout << "does not fold until " << summary.time << " s";
+  std::cout << ", smallest tip angle " << summary.tip_angle_min << " degrees; took " << duration(summary.wall_seconds)
+            << '\n';
+  if (summary.failure) std::cerr << summary.case_name << " stopped: " << *summary.failure << '\n';
+}
+
+/// Runs the cases, as many at a time as there are threads: cases need not wait for each other, while the threads of one
+/// do so several times in a step. Returns whether all came to their end.
+bool run_cases(const Options& options) {
+  Options one = options;
+  const auto workers = std::min(options.cases.size(), static_cast<std::size_t>(options.threads));
+  one.threads = options.threads / static_cast<int>(workers);
+  one.bar = options.bar && workers == 1;
+
+  std::atomic<std::size_t> next = 0;
+  std::mutex reporting;
+  bool all_ended = true;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < options.cases.size(); k = next++) {
+      const Summary summary = run_case(one, find_case(options.cases[k]));
+      const std::lock_guard lock(reporting);
+      report(summary);
+      all_ended = all_ended && !summary.failure;
+    }
+  };
+  std::vector<std::future<void>> running;
+  for (std::size_t w = 0; w < workers; ++w) running.push_back(std::async(std::launch::async, work));
+  for (auto& worker : running) worker.get();
+  return all_ended;
+}
+
+}  // namespace
+}  // namespace swallowing
 
 int main(int argc, char** argv) {
   using namespace swallowing;
@@ -18,20 +65,7 @@ int main(int argc, char** argv) {
   try {
     const std::filesystem::path out(options->out);
     examples::prepare_folder(out);
-    for (const auto& name : options->cases) {
-      const Summary summary = run_case(*options, find_case(name));
-      std::cout << name << ": ";
-      if (summary.fold_time)
-        std::cout << "folds below the horizontal at " << *summary.fold_time << " s";
-      else
-        std::cout << "does not fold until " << summary.time << " s";
-      std::cout << ", smallest tip angle " << summary.tip_angle_min << " degrees; took "
-                << duration(summary.wall_seconds) << '\n';
-      if (summary.failure) {
-        std::cerr << name << " stopped: " << *summary.failure << '\n';
-        exit_code = 1;
-      }
-    }
+    if (!run_cases(*options)) exit_code = 1;
     const auto results = read_results(out);
     write_table2(out / "table2.md", results);
     draw_fold(out / "fold.png", results);

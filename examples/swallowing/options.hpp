@@ -24,6 +24,7 @@ struct Options {
   int threads = 0;               ///< at least 1 after parsing: as given, or all cores
   double lattice_shift = 0;      ///< of the particle lattice along x and z, in spacings
   bool constrictors = true;      ///< false: region H is left out
+  bool bar = true;               ///< on a terminal, progress as a bar in one line
   bool frames = true;            ///< write frames for ParaView
   double frame_interval = 0.01;  ///< in s
   std::string out = "results";   ///< the output folder

@@ -79,7 +79,8 @@ void Progress::draw(double time, std::uint64_t steps, double smallest_j) {
   const std::string numbers = format("%5.3f s  %sparticle-steps/s  %s left  J > %.3f", time, with_prefix(rate).c_str(),
                                      duration(left).c_str(), smallest_j);
   if (!settings_.terminal) {
-    *out_ << settings_.name << ' ' << format("%3.0f %%  ", 100 * share) << numbers << '\n' << std::flush;
+    // In one piece: other cases may be writing their lines.
+    *out_ << settings_.name + ' ' + format("%3.0f %%  ", 100 * share) + numbers + '\n' << std::flush;
     return;
   }
   const int room = std::clamp(settings_.width - static_cast<int>(settings_.name.size() + numbers.size()) - 12, 0, 40);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <hmps/core/error.hpp>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
 /// The control regions of the deforming body, in a fixed order.
 [[nodiscard]] inline std::vector<Region> body_regions() {
   std::vector<Region> regions{{"fixed", Region::fixed}};
-  for (int k = 0; k < 8; ++k) regions.push_back({"B" + std::to_string(k), Region::moved, k});
+  for (int k = 0; k < 8; ++k) regions.push_back({hmps::message("B", k), Region::moved, k});
   regions.push_back({"A", Region::moved, 10});
   regions.push_back({"S1", Region::moved, 20});
   regions.push_back({"S2", Region::moved, 21});

@@ -126,7 +126,7 @@ class Run {
                                   .start = simulation_.time(),
                                   .until = options_.until,
                                   .particles = scene_.reference.size(),
-                                  .terminal = is_terminal()});
+                                  .terminal = options_.bar && is_terminal()});
     describe_step();
     double smallest_j = 1;
     try {
@@ -168,9 +168,10 @@ class Run {
   void describe_step() const {
     const auto& limit = simulation_.step_limit();
     const auto organ = name(scene_.organ[limit.particle]);
-    std::cerr << chosen_.name << ": " << summary_.particles_free << " free and " << summary_.particles_control
-              << " control particles; step " << 1e6 * simulation_.time_step() << " us of at most " << 1e6 * limit.limit
-              << " us at rest, which particle " << limit.particle << " (" << organ << ") sets\n";
+    std::cerr << hmps::message(chosen_.name, ": ", summary_.particles_free, " free and ", summary_.particles_control,
+                               " control particles; step ", 1e6 * simulation_.time_step(), " us of at most ",
+                               1e6 * limit.limit, " us at rest, which particle ", limit.particle, " (", organ,
+                               ") sets\n");
   }
 
   void measure(const Sample& now) {

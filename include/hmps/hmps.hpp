@@ -62,6 +62,7 @@
 #include "hmps/shapes/sweep.hpp"
 #include "hmps/shapes/thicken.hpp"
 #include "hmps/stabilise/artificial.hpp"
+#include "hmps/stabilise/shear_wave_modulus.hpp"
 #include "hmps/time/probed_scene.hpp"
 #include "hmps/time/stable_step.hpp"
 #include "hmps/time/step_causes.hpp"
