@@ -35,6 +35,7 @@
 #include "hmps/elastic/invariants.hpp"
 #include "hmps/elastic/law.hpp"
 #include "hmps/elastic/linear_elastic.hpp"
+#include "hmps/elastic/mean_dilatation.hpp"
 #include "hmps/elastic/mooney_rivlin.hpp"
 #include "hmps/elastic/neo_hookean.hpp"
 #include "hmps/elastic/saint_venant_kirchhoff.hpp"

@@ -6,11 +6,14 @@
 #include <cstddef>
 #include <functional>
 #include <type_traits>
+#include <vector>
 
 #include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/elastic/law.hpp"
+#include "hmps/elastic/mean_dilatation.hpp"
 #include "hmps/stabilise/artificial.hpp"
 
 /// Energies of a body in J (in two dimensions per metre of thickness), summed in double precision
@@ -116,6 +119,35 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
         const double stiffness = artificial_coefficient(static_cast<double>(detail::material_at(modulus, i)), D,
                                                         1.0 / static_cast<double>(bonds.shape_trace(i)));
         return static_cast<double>(at_particle(volume, i)) * stiffness * 0.5 * error;
+      },
+      std::plus<>{}, execute);
+}
+
+/// Energy of `mean_dilatation`, sum of V K theta_i^2 / 2.
+///
+/// @param bonds   `BondList` or `LatticeBonds` of the body
+/// @param F       deformation gradients, \paper{11}
+/// @param bulk    K in Pa: a number, a `ScalarView`, or a callable of `OneParticle`
+/// @param volume  in m^D, a number or a `ScalarView`
+template <class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Serial>
+[[nodiscard]] double mean_dilatation_energy(const B& bonds, const MatrixView<T, D>& F, const Bulk& bulk,
+                                            const Vol& volume, const E& execute = {}) {
+  require_size(F, bonds.size(), "deformation gradients");
+  require_positive(volume, bonds.size(), "volume", "m3");
+  std::vector<typename B::Scalar> scale(bonds.slot_count());
+  detail::scale_neighbourhoods(bonds, scale.data());
+  return reduce(
+      bonds.size(), 0.0,
+      [&](std::size_t i) {
+        const auto scaled = [&](std::size_t k) {
+          const Matrix<double, D> gradient = F[k].template cast<double>();
+          return static_cast<double>(scale[bonds.slot(k)]) * (determinant(gradient) - 1);
+        };
+        double sum = scaled(i);
+        bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
+        const double theta = static_cast<double>(scale[bonds.slot(i)]) * sum;
+        return static_cast<double>(at_particle(volume, i)) * static_cast<double>(detail::material_at(bulk, i)) * 0.5 *
+               theta * theta;
       },
       std::plus<>{}, execute);
 }

@@ -11,6 +11,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/elastic/deformation_gradient.hpp"
+#include "hmps/elastic/mean_dilatation.hpp"
 #include "hmps/force/terms.hpp"
 
 namespace hmps {
@@ -18,7 +19,7 @@ namespace hmps {
 /// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the
 /// deformation gradient and what follows from it, one for the sum in `Coupling`. A term that is not
 /// named is not computed; where no term couples, the first sweep is left out, where none damps, no
-/// velocity is read.
+/// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond.
 ///
 /// Keeps a reference to the bonds, which must outlive it, and scratch memory, but no state: one
 /// object serves any number of states in turn (not at the same time). `restrict_to` leaves out what
@@ -34,8 +35,10 @@ class InternalForce {
   static constexpr int D = dimension;
   using T = Lanes<K>;
   static_assert((ForceTerm<Terms, K, D> && ...),
-                "hmps: a term of internal_force needs couple(particles, coupling) or damping(bonds); see ForceTerm");
-  static constexpr bool couples = (CouplingTerm<Terms, K, D> || ...);
+                "hmps: a term of internal_force needs couple(particles, coupling), damping(bonds) or "
+                "pressure(particles, theta); see ForceTerm");
+  static constexpr bool dilates = (DilatationTerm<Terms, K, D> || ...);
+  static constexpr bool couples = dilates || (CouplingTerm<Terms, K, D> || ...);
   static constexpr bool damps = (DampingTerm<Terms, K, D> || ...);
 
  public:
@@ -44,29 +47,33 @@ class InternalForce {
         terms_(std::move(terms)...),
         displacement_(couples ? D : 0, bonds.slot_count()),
         velocity_(damps ? D : 0, bonds.slot_count()),
-        coupling_(couples ? D * D + 1 : 0, bonds.slot_count()) {
+        coupling_(couples ? D * D + 1 : 0, bonds.slot_count()),
+        dilatation_(dilates ? 3 : 0, bonds.slot_count()) {
     if constexpr (damps) {
       double sum = 0;
       std::apply([&](const auto&... term) { (add_damping(term, sum), ...); }, terms_);
       damping_ = static_cast<K>(sum);
     }
+    if constexpr (dilates) detail::scale_neighbourhoods(bonds, dilatation_[scale]);
   }
 
-  /// Evaluates from now on only what the particles need for which `moves(i)` holds: those that follow the force. What is
-  /// written for the others, if anything, means nothing; terms such as `record` see the particles that move, those that
-  /// they are bonded to, and what shares a block with either. Particles deep in a region whose motion is prescribed
-  /// cost nothing but their place then.
+  /// Evaluates from now on only what the particles need for which `moves(i)` holds: those that follow the force. What
+  /// is written for the others, if anything, means nothing; terms such as `record` see the particles that move, those
+  /// that they are bonded to, and what shares a block with either. Particles deep in a region whose motion is
+  /// prescribed cost nothing but their place then.
   template <class Moves>
-  requires std::predicate<Moves&, std::size_t> void restrict_to(Moves&& moves) {
-    std::vector<char> sums(bonds_->block_count(), 0), couplings(bonds_->block_count(), 0);
-    for (std::size_t i = 0; i < bonds_->size(); ++i) {
-      if (!moves(i)) continue;
-      const std::size_t block = bonds_->slot(i) / B::width;
-      sums[block] = couplings[block] = 1;
-      bonds_->for_each_bond(i, [&](std::size_t j, const auto&, auto) { couplings[bonds_->slot(j) / B::width] = 1; });
+  requires std::predicate<Moves&, std::size_t>
+  void restrict_to(Moves&& moves) {
+    std::vector<char> moving(bonds_->size());
+    for (std::size_t i = 0; i < moving.size(); ++i) moving[i] = moves(i) ? 1 : 0;
+    summed_ = blocks_of(moving);
+    with_neighbours(moving);
+    coupled_ = blocks_of(moving);
+    if constexpr (dilates) {  // their pressure is that of neighbours, and so are the dilatations that make it
+      with_neighbours(moving);
+      with_neighbours(moving);
+      dilated_ = blocks_of(moving);
     }
-    summed_ = listed(sums);
-    coupled_ = listed(couplings);
     restricted_ = true;
   }
 
@@ -84,6 +91,10 @@ class InternalForce {
       if constexpr (couples) detail::stage_displacement(*bonds_, block, x, common, displacement_);
       if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
     });
+    if constexpr (dilates) {
+      sweep(dilated_, execute, [&](std::size_t block) { dilate(block); });
+      sweep(dilated_, execute, [&](std::size_t block) { press(block); });
+    }
     if constexpr (couples) sweep(coupled_, execute, [&](std::size_t block) { couple(block); });
     sweep(summed_, execute, [&](std::size_t block) { sum(block, f); });
   }
@@ -97,17 +108,26 @@ class InternalForce {
   [[nodiscard]] const B& bonds() const { return *bonds_; }
   /// Bytes of scratch memory.
   [[nodiscard]] std::size_t bytes() const {
-    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() +
-           (coupled_.size() + summed_.size()) * sizeof(Index);
+    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + dilatation_.bytes() +
+           (dilated_.size() + coupled_.size() + summed_.size()) * sizeof(Index);
   }
 
  private:
-  /// The blocks that are marked.
-  [[nodiscard]] static std::vector<Index> listed(const std::vector<char>& marked) {
+  /// The blocks with a particle that is marked.
+  [[nodiscard]] std::vector<Index> blocks_of(const std::vector<char>& marked) const {
+    std::vector<char> found(bonds_->block_count(), 0);
+    for (std::size_t i = 0; i < marked.size(); ++i)
+      if (marked[i]) found[bonds_->slot(i) / B::width] = 1;
     std::vector<Index> blocks;
-    for (std::size_t block = 0; block < marked.size(); ++block)
-      if (marked[block]) blocks.push_back(static_cast<Index>(block));
+    for (std::size_t block = 0; block < found.size(); ++block)
+      if (found[block]) blocks.push_back(static_cast<Index>(block));
     return blocks;
+  }
+  /// Marks the neighbours of what is marked too.
+  void with_neighbours(std::vector<char>& marked) const {
+    const std::vector<char> before = marked;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (before[i]) bonds_->for_each_bond(i, [&](std::size_t j, const auto&, auto) { marked[j] = 1; });
   }
   /// Calls `visit(block)` for all blocks or, if the force is restricted, for those in `blocks`.
   template <class E, class Visit>
@@ -122,28 +142,69 @@ class InternalForce {
     if constexpr (DampingTerm<Term, K, D>) sum += term.damping(*bonds_);
   }
   template <class Term>
+  HMPS_INLINE static void add_pressure(const Term& term, const BlockOfParticles<K, D>& particles, const T& theta,
+                                       T& pressure) {
+    if constexpr (DilatationTerm<Term, K, D>) pressure += term.pressure(particles, theta);
+  }
+  template <class Term>
   HMPS_INLINE static void add_coupling(const Term& term, const BlockOfParticles<K, D>& particles,
                                        Coupling<K, D>& coupling) {
     if constexpr (CouplingTerm<Term, K, D>) term.couple(particles, coupling);
   }
 
-  /// First sweep: what the particles of `block` carry to their bonds.
+  /// First of the sweeps that the mean dilatation needs: F, kept where the coupling will be, and d (J - 1).
+  void dilate(std::size_t block) {
+    const std::size_t slot = block * B::width;
+    const Matrix<T, D> F =
+        detail::deformation_gradient_lanes(*bonds_, block, displacement_, bonds_->shape_inverse_lanes(block));
+    for (int k = 0; k < D * D; ++k) store(coupling_[static_cast<std::size_t>(k)] + slot, F(k % D, k / D));
+    store(dilatation_[own] + slot, load(dilatation_[scale] + slot) * (determinant(F) - T(1)));
+  }
+  /// Second of them: d U'(theta).
+  void press(std::size_t block) {
+    const std::size_t slot = block * B::width;
+    const T d = load(dilatation_[scale] + slot);
+    const T theta = d * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[own]);
+    const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block), F = kept_gradient(block);
+    const BlockOfParticles<K, D> particles(*bonds_, block, F, inverse);
+    T pressure(0);
+    std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
+    store(dilatation_[shared] + slot, d * pressure);
+  }
+  [[nodiscard]] Matrix<T, D> kept_gradient(std::size_t block) const {
+    Matrix<T, D> F;
+    for (int k = 0; k < D * D; ++k) F(k % D, k / D) = load(coupling_[static_cast<std::size_t>(k)] + block * B::width);
+    return F;
+  }
+
+  /// What the particles of `block` carry to their bonds.
   void couple(std::size_t block) {
+    const std::size_t slot = block * B::width;
     const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block);
-    const Matrix<T, D> F = detail::deformation_gradient_lanes(*bonds_, block, displacement_, inverse);
+    const Matrix<T, D> F = [&] {
+      if constexpr (dilates)
+        return kept_gradient(block);
+      else
+        return detail::deformation_gradient_lanes(*bonds_, block, displacement_, inverse);
+    }();
     const BlockOfParticles<K, D> particles(*bonds_, block, F, inverse);
     Coupling<K, D> coupling;
     for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) = T(0);
     coupling.c = T(0);
     std::apply([&](const auto&... term) { (add_coupling(term, particles, coupling), ...); }, terms_);
-    // The second sweep works on displacements: c r_ij = c r0_ij + c (u_j - u_i).
+    if constexpr (dilates) {
+      const T pressure =
+          load(dilatation_[scale] + slot) * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[shared]);
+      const Matrix<T, D> push = product(cofactor(F), inverse);
+      for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pressure * push(k % D, k / D);
+    }
+    // The last sweep works on displacements: c r_ij = c r0_ij + c (u_j - u_i).
     for (int d = 0; d < D; ++d) coupling.M(d, d) += coupling.c;
-    const std::size_t slot = block * B::width;
     for (int k = 0; k < D * D; ++k) store(coupling_[static_cast<std::size_t>(k)] + slot, coupling.M(k % D, k / D));
     store(coupling_[D * D] + slot, coupling.c);
   }
 
-  /// Second sweep: the sum in `Coupling` over the bonds of the particles of `block`.
+  /// The last sweep: the sum in `Coupling` over the bonds of the particles of `block`.
   template <class F>
   void sum(std::size_t block, const VectorView<F, D>& f) const {
     const std::size_t slot = block * B::width;
@@ -183,9 +244,10 @@ class InternalForce {
 
   const B* bonds_;
   std::tuple<Terms...> terms_;
-  SlotArrays<K> displacement_, velocity_, coupling_;
+  enum : std::size_t { own, shared, scale };  // components of dilatation_: d (J - 1), d U', d
+  SlotArrays<K> displacement_, velocity_, coupling_, dilatation_;
   bool restricted_ = false;
-  std::vector<Index> coupled_, summed_;  // if restricted, the blocks that each sweep visits
+  std::vector<Index> dilated_, coupled_, summed_;  // if restricted, the blocks that each sweep visits
   K damping_ = 0;
 };
 

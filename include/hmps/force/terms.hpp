@@ -89,8 +89,10 @@ struct Coupling {
 /// |---|---|
 /// | `term.couple(particles, coupling)` | adds to `coupling.M` and `coupling.c` of a `BlockOfParticles` |
 /// | `term.damping(bonds)` | d of the whole body, in Pa s/m2 |
+/// | `term.pressure(particles, theta)` | dU/dtheta in Pa, for an energy U of the mean dilatation; see `MeanDilatation`
+/// |
 ///
-/// Satisfied by `Elastic`, `Artificial`, `Viscous`, `Record`, and a user's own struct.
+/// Satisfied by `Elastic`, `Artificial`, `Viscous`, `MeanDilatation`, `Record`, and a user's own struct.
 template <class Term, class K, int D>
 concept CouplingTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
   term.couple(particles, coupling);
@@ -100,7 +102,11 @@ concept DampingTerm = requires(const Term& term, const Blocks<K, D>& blocks) {
   { term.damping(blocks) } -> std::convertible_to<double>;
 };
 template <class Term, class K, int D>
-concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D>;
+concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, const Lanes<K>& theta) {
+  { term.pressure(particles, theta) } -> std::convertible_to<Lanes<K>>;
+};
+template <class Term, class K, int D>
+concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DilatationTerm<Term, K, D>;
 
 /// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows
 /// with `row.gather(values)` (a value of the neighbour in each lane), `row.offset(c)` (component c of
