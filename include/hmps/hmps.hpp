@@ -17,6 +17,7 @@
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
 #include "hmps/contact/quad.hpp"
+#include "hmps/contact/raised_skin.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/lanes.hpp"

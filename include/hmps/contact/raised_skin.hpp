@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+/// Where contact sees the outermost particles of a body whose surface is cut out of a lattice; beyond the paper.
+///
+/// A surface that is not along the lattice is a staircase: its outermost particles lie up to a spacing below it, and
+/// the wall of metaballs that they make has the steps of the stairs. Here each particle of the skin is raised to half
+/// a spacing below the surface, where a layer along it would lie, by an offset in the reference configuration that
+/// follows its deformation gradient: x + F d. Only contact is to see these places: mass, bonds and forces stay with
+/// the particles. A functor that keeps the offsets; positions stay with the caller.
+///
+/// In each step call it before the contact, and hand the places on instead of the positions:
+///
+///     raised(x, F, places);   contact(places, v, F, dt, f);
+template <class S, int D>
+class RaisedSkin {
+ public:
+  /// @param reference  reference positions in m
+  /// @param skin       the outermost particles: the slaves of the organ
+  /// @param shape      `shape(x)`, about the signed distance to the surface in m, negative inside
+  /// @param spacing    l0 in m
+  /// Throws `InputError` for a particle that does not exist or lies further than 1.5 spacings from where it should,
+  /// and where the shape does not tell which way is out.
+  template <class T, class Shape>
+  RaisedSkin(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
+      : skin_(skin.begin(), skin.end()) {
+    require(spacing > 0 && std::isfinite(spacing), "hmps: the spacing of a raised skin is ", spacing,
+            " m; give the particles' positive distance in the reference configuration");
+    for (const Index i : skin_) {
+      require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
+              reference.size(), " particles");
+      const Vector<double, D> start = reference[i].template cast<double>();
+      Vector<double, D> place = start;
+      // For a true distance the first pass is exact.
+      for (int pass = 0; pass < 3; ++pass) {
+        Vector<double, D> outward;
+        for (int c = 0; c < D; ++c) {
+          const Vector<double, D> step = 1e-3 * spacing * Vector<double, D>::Unit(c);
+          outward[c] = (distance(shape, place + step) - distance(shape, place - step)) / (2e-3 * spacing);
+        }
+        require(outward.squaredNorm() > 1e-2, "hmps: the shape does not tell where the surface is from particle ", i,
+                " at (", start.transpose(), "); give about the signed distance in m");
+        place -= (distance(shape, place) + 0.5 * spacing) / outward.squaredNorm() * outward;
+      }
+      const Vector<double, D> offset = place - start;
+      require(offset.norm() < 1.5 * spacing, "hmps: particle ", i, " at (", start.transpose(), ") lies ", offset.norm(),
+              " m from where a layer along the surface would; only the outermost layer can be raised");
+      offset_.push_back(offset.template cast<S>());
+    }
+  }
+
+  /// Writes to `places` what contact shall see: the positions `x`, and x + F d for the skin, in m.
+  template <class X, class M, class P, Executor E = Serial>
+  void operator()(const VectorView<X, D>& x, const MatrixView<M, D>& F, const VectorView<P, D>& places,
+                  const E& execute = {}) const {
+    require_size(F, x.size(), "deformation gradients");
+    require_size(places, x.size(), "places for contact");
+    execute(x.size(), [&](std::size_t i) {
+      for (int c = 0; c < D; ++c) places(i, c) = static_cast<P>(x(i, c));
+    });
+    execute(skin_.size(), [&](std::size_t k) {
+      const Index i = skin_[k];
+      const Vector<S, D> shift = F[i].template cast<S>() * offset_[k];
+      for (int c = 0; c < D; ++c) places(i, c) = static_cast<P>(x(i, c) + static_cast<X>(shift[c]));
+    });
+  }
+
+  /// Offsets in the reference configuration in m, in the order of the skin.
+  [[nodiscard]] const std::vector<Vector<S, D>>& offsets() const { return offset_; }
+
+ private:
+  template <class Shape>
+  [[nodiscard]] static double distance(const Shape& shape, const Vector<double, D>& x) {
+    return static_cast<double>(shape(Vector<S, D>(x.template cast<S>())));
+  }
+
+  std::vector<Index> skin_;
+  std::vector<Vector<S, D>> offset_;
+};
+
+}  // namespace hmps

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/contact/raised_skin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "hmps/shapes/implicit.hpp"
+
+namespace {
+
+using hmps::Index;
+
+template <class Case>
+class RaisedSkinTest : public ::testing::Test {};
+template <class S_, int D_>
+struct Kind {
+  using S = S_;
+  static constexpr int D = D_;
+};
+using Kinds = ::testing::Types<Kind<double, 3>, Kind<double, 2>, Kind<float, 3>>;
+TYPED_TEST_SUITE(RaisedSkinTest, Kinds);
+
+/// The particles of a square or cubic lattice in a ball about the origin, and the outermost of them.
+template <class S, int D>
+struct Lattice {
+  using Point = hmps::Vector<S, D>;
+  static constexpr S l0 = S(1e-3), radius = S(6.3e-3);
+  hmps::Ball<S, D> ball{Point::Zero(), radius};
+  std::vector<Point> x;
+  std::vector<Index> skin;
+  Lattice() {
+    for (int i = -7; i <= 7; ++i)
+      for (int j = -7; j <= 7; ++j)
+        for (int k = D == 3 ? -7 : 0; k <= (D == 3 ? 7 : 0); ++k) {
+          Point p;
+          p[0] = S(i) * l0;
+          p[1] = S(j) * l0;
+          if constexpr (D == 3) p[2] = S(k) * l0;
+          if (ball(p) > S(0)) continue;
+          bool outermost = false;
+          for (int c = 0; c < D; ++c)
+            for (const S step : {l0, -l0}) outermost = outermost || ball(p + step * Point::Unit(c)) > S(0);
+          if (outermost) skin.push_back(static_cast<Index>(x.size()));
+          x.push_back(p);
+        }
+  }
+};
+
+TYPED_TEST(RaisedSkinTest, LiesHalfASpacingBelowTheSurfaceAndTheRestStays) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  const Lattice<S, D> body;
+  const hmps::RaisedSkin<S, D> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
+  const std::vector<hmps::Matrix<S, D>> F(body.x.size(), hmps::Matrix<S, D>::Identity());
+  auto places = body.x;
+  raised(hmps::vectors(body.x), hmps::matrices(F), hmps::vectors(places));
+  std::vector<bool> in_skin(body.x.size(), false);
+  for (const Index i : body.skin) in_skin[i] = true;
+  // The gradient of the shape is a central difference over 2e-3 spacings: rounding of the distance over that.
+  const S tolerance = S(0.5) * body.l0 * std::numeric_limits<S>::epsilon() * S(1e4);
+  double furthest = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (in_skin[i])
+      EXPECT_NEAR(body.ball(places[i]), S(-0.5) * body.l0, tolerance) << i;
+    else
+      EXPECT_EQ(places[i], body.x[i]);
+    furthest = std::max(furthest, static_cast<double>((places[i] - body.x[i]).norm() / body.l0));
+  }
+  EXPECT_GT(furthest, 0.3) << "the ball is no staircase, so that this shows nothing";
+}
+
+/// Turned and stretched, the raised places turn and stretch along: they are material points.
+TYPED_TEST(RaisedSkinTest, FollowsTheBody) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  const Lattice<S, D> body;
+  const hmps::RaisedSkin<S, D> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
+  hmps::Matrix<S, D> A = hmps::Matrix<S, D>::Identity();
+  A(0, 0) = S(0.6);
+  A(0, 1) = S(-1.6);
+  A(1, 0) = S(0.8);
+  A(1, 1) = S(1.2);
+  std::vector<hmps::Matrix<S, D>> F(body.x.size(), hmps::Matrix<S, D>::Identity());
+  auto before = body.x, x = body.x, after = body.x;
+  raised(hmps::vectors(x), hmps::matrices(F), hmps::vectors(before));
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = A * x[i], F[i] = A;
+  raised(hmps::vectors(x), hmps::matrices(F), hmps::vectors(after));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_LT((after[i] - A * before[i]).norm(), S(20) * body.radius * std::numeric_limits<S>::epsilon());
+}
+
+TEST(RaisedSkin, SaysWhatIsWrong) {
+  const Lattice<double, 3> body;
+  const auto make = [&](std::vector<Index> skin, auto shape, double spacing) {
+    (void)hmps::RaisedSkin<double, 3>(hmps::vectors(body.x), skin, shape, spacing);
+  };
+  EXPECT_NO_THROW(make(body.skin, body.ball, body.l0));
+  EXPECT_THROW(make(body.skin, body.ball, 0), hmps::InputError);
+  EXPECT_THROW(make({static_cast<Index>(body.x.size())}, body.ball, body.l0), hmps::InputError) << "no such particle";
+  const Index deep = static_cast<Index>(body.x.size() / 2 + 1);  // next to the middle
+  EXPECT_THROW(make({deep}, body.ball, body.l0), hmps::InputError) << "an inner particle";
+  EXPECT_THROW(make(
+                   body.skin, [](const auto&) { return -1e-3; }, body.l0),
+               hmps::InputError)
+      << "no direction";
+}
+
+}  // namespace
