@@ -63,10 +63,11 @@ struct Unbalanced {
   double moving = 0;   ///< sum of force densities of the particles that move
   double held = 0;     ///< of the others
   double power = 0;    ///< of all forces on the velocities
+  double gain = 0;     ///< what a kick adds to it per second
   double fastest = 0;  ///< largest speed
 
   [[nodiscard]] static Unbalanced join(const Unbalanced& a, const Unbalanced& b) {
-    return {a.moving + b.moving, a.held + b.held, a.power + b.power, std::max(a.fastest, b.fastest)};
+    return {a.moving + b.moving, a.held + b.held, a.power + b.power, a.gain + b.gain, std::max(a.fastest, b.fastest)};
   }
 };
 
@@ -125,11 +126,11 @@ template <class F, int D>
 /// Brings a body to rest under the composed `force`, by dynamic relaxation with kinetic damping: the static answer.
 ///
 /// The particles start at rest and follow symplectic Euler (\paper{2, 4}). Whenever their kinetic energy has passed a
-/// peak, that is when the forces begin to take power, f . v < 0, all velocities are set to zero. The first kick
-/// after a stop is of half a step, so that the velocities are those of the middle of the steps: then no
-/// mode of a linear body grows by a stop, at any stable step. (With a whole one a mode at the limit of stability, being
-/// stopped at each step, would grow threefold each time.) It ends when the unbalanced forces are `tolerance` times the
-/// load, at rest.
+/// peak, that is when the forces begin to take power, f . v < 0, they go back to where in the last step it was, by
+/// linear interpolation of the power, and stop. For a linear body that is the least potential energy along the step, so
+/// that no stop lets it grow; without going back a mode of four steps per period would swing for ever. The first kick
+/// after a stop is of half a step, so that the velocities are those of the middle of the steps. It ends when the
+/// unbalanced forces are `tolerance` times the load, at rest.
 ///
 ///     const auto found = relax(force, x, v, f, rho, {.spacing = l0, .load = weight, .moves = moves});
 ///
@@ -178,6 +179,11 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
       for (int c = 0; c < D; ++c) v(i, c) = V(0);
     });
   };
+  const auto back = [&](double time) {
+    execute(n, [&](std::size_t i) {
+      for (int c = 0; c < D; ++c) x(i, c) = static_cast<X>(x(i, c) - v(i, c) * time);
+    });
+  };
   const auto unbalanced = [&] {
     return reduce(
         n, detail::Unbalanced{},
@@ -185,8 +191,11 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
           const Vector<double, D> push = f[i].template cast<double>();
           const double size = push.norm();
           const Vector<double, D> speed = v[i].template cast<double>();
-          return follows[i] ? detail::Unbalanced{size, 0, push.dot(speed), speed.norm()}
-                            : detail::Unbalanced{0, size, 0, 0};
+          if (!follows[i]) return detail::Unbalanced{.held = size};
+          return detail::Unbalanced{.moving = size,
+                                    .power = push.dot(speed),
+                                    .gain = size * size / static_cast<double>(at_particle(rho, i)),
+                                    .fastest = speed.norm()};
         },
         detail::Unbalanced::join, execute);
   };
@@ -194,6 +203,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   Relaxation result;
   detail::RelaxationStep step(settings);
   stop();
+  double before = 0;  // the power of the forces at the start of the last drift
   for (bool at_rest = true;; ++result.iterations) {
     execute(n, [&](std::size_t i) {
       for (int c = 0; c < D; ++c) f(i, c) = F(0);
@@ -210,11 +220,12 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
     const bool balanced = result.residual <= settings.tolerance;
     if (balanced && at_rest) break;
     if (balanced || sums.power < 0) {
-      // Balanced in motion counts only if it lasts without: the force may depend on the velocities.
+      // Balanced in motion counts only if it lasts at rest: the force may depend on the velocities.
+      if (!balanced) back(step.value() * sums.power / (sums.power - before));
       stop();
       at_rest = true;
       ++result.peaks;
-      if (balanced) continue;
+      continue;
     }
     if (result.iterations >= settings.max_iterations)
       throw StateError(message("hmps: relax made ", result.iterations,
@@ -222,7 +233,9 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
                                result.load, " N; allow more max_iterations than ", settings.max_iterations,
                                ", or a larger tolerance than ", settings.tolerance));
     step.update(force, Read(x), VectorView<const V, D>(v), rho, sums.fastest, execute);
-    kick(v, f, rho, at_rest ? step.value() / 2 : step.value(), execute);
+    const double kicked = at_rest ? step.value() / 2 : step.value();
+    kick(v, f, rho, kicked, execute);
+    before = sums.power + kicked * sums.gain;
     at_rest = false;
     execute(n, [&](std::size_t i) {
       for (int c = 0; c < D && !follows[i]; ++c) v(i, c) = V(0);

@@ -248,18 +248,23 @@ TEST(Relax, FollowsTheStableStepThroughALargeStrain) {
   EXPECT_THROW((void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings), StateError);
 }
 
-/// The sudden stop at each step of a mode near the limit of stability, which a whole kick would let grow threefold.
-TEST(Relax, LetsNoModeGrowAtAnyStableStep) {
-  std::vector<Vector<double, 2>> x{{1, 0}, {0, 1}}, v = x, f = x;
-  // Two oscillators with omega = 2 and 0.05 rad/s: the step of 0.95 s is near the limit of the first, 1 s.
-  const auto force = [](const auto& at, const auto&, const auto& out) {
-    for (std::size_t i = 0; i < 2; ++i) out.set(i, -(i == 0 ? 4. : 0.0025) * at[i]);
-  };
-  const auto found = relax(force, vectors(x), vectors(v), vectors(f), 1.0,
-                           {.spacing = 1, .tolerance = 1e-6, .load = 0.0025, .max_iterations = 2000, .step = 0.95});
-  EXPECT_LT(x[0].norm(), 1e-6);
-  EXPECT_LT(x[1].norm(), 1e-6);
-  EXPECT_GT(found.peaks, 1);
+/// Two oscillators, the one at every step up to the limit of stability, 1 s, the other slow. Stopped without going back
+/// to the peak, the first would swing for ever where its period is four steps (a step of 1 / sqrt(2) s), and it would
+/// grow near the limit if the first kick were a whole one.
+TEST(Relax, IsHeldUpByNoModeAtAnyStableStep) {
+  for (const double step : {0.1, 0.3, 0.5, std::sqrt(0.5), 0.8, 0.9, 0.99}) {
+    std::vector<Vector<double, 2>> x{{1, 0}, {0, 1}}, v = x, f = x;
+    const double slow = 0.2;  // rad/s; the first has 2 rad/s
+    const auto force = [&](const auto& at, const auto&, const auto& out) {
+      for (std::size_t i = 0; i < 2; ++i) out.set(i, -(i == 0 ? 4. : slow * slow) * at[i]);
+    };
+    const auto found = relax(force, vectors(x), vectors(v), vectors(f), 1.0,
+                             {.spacing = 1, .tolerance = 1e-6, .load = 1, .max_iterations = 2000, .step = step});
+    EXPECT_LT(x[0].norm(), 1e-6 / 4) << step;
+    EXPECT_LT(x[1].norm(), 1e-6 / (slow * slow)) << step;
+    // No more than ten of the slow one's periods.
+    EXPECT_LT(found.iterations * step, 10 * 2 * std::acos(-1.0) / slow) << step;
+  }
 }
 
 std::string words_of(const std::function<void()>& call) {
