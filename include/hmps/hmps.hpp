@@ -66,6 +66,7 @@
 #include "hmps/stabilise/artificial.hpp"
 #include "hmps/stabilise/shear_wave_modulus.hpp"
 #include "hmps/time/probed_scene.hpp"
+#include "hmps/time/relaxation.hpp"
 #include "hmps/time/stable_step.hpp"
 #include "hmps/time/step_causes.hpp"
 #include "hmps/time/symplectic_euler.hpp"

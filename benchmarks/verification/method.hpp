@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <hmps/hmps.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The variants of the method that are compared, and the body that they act on.
+namespace verification {
+
+/// A variant of the method. One more is one more line in `methods`, and a branch in `with_force` where it takes other
+/// terms.
+struct Method {
+  std::string name;
+  bool shear_wave = false;  ///< E_hat = `shear_wave_modulus` instead of the paper's, Young's modulus
+};
+
+inline const Method paper{.name = "E_hat = E"};
+inline const Method shear_wave{.name = "E_hat = 4/3 mu", .shear_wave = true};
+inline const std::vector<Method> methods{paper, shear_wave};
+
+/// Young's modulus of a law at zero strain.
+template <class Law>
+[[nodiscard]] double young_of(const Law& law) {
+  const double bulk = law.bulk_modulus(), shear = law.shear_modulus();
+  return 9 * bulk * shear / (3 * bulk + shear);
+}
+
+/// E_hat of a method for a law.
+template <class Law>
+[[nodiscard]] double modulus_of(const Method& method, const Law& law) {
+  return method.shear_wave ? hmps::shear_wave_modulus(law.shear_modulus()) : young_of(law);
+}
+
+/// A body of particles in `D` dimensions (two: plane strain), at rest in its reference configuration.
+template <int D>
+struct Body {
+  using Vector = hmps::Vector<double, D>;
+
+  double spacing;
+  std::vector<Vector> reference, position, velocity, load;
+  std::vector<hmps::Matrix<double, D>> gradient;
+
+  Body(double l0, std::vector<Vector> points)
+      : spacing(l0),
+        reference(std::move(points)),
+        position(reference),
+        velocity(reference.size(), Vector::Zero()),
+        load(velocity),
+        gradient(reference.size(), hmps::Matrix<double, D>::Identity()) {}
+
+  [[nodiscard]] std::size_t size() const { return reference.size(); }
+  [[nodiscard]] double volume() const { return std::pow(spacing, D); }
+  [[nodiscard]] Vector displacement(std::size_t i) const { return position[i] - reference[i]; }
+  [[nodiscard]] auto X() const { return hmps::vectors(reference); }
+  [[nodiscard]] auto x() { return hmps::vectors(position); }
+  [[nodiscard]] auto v() { return hmps::vectors(velocity); }
+  [[nodiscard]] auto f() { return hmps::vectors(load); }
+  [[nodiscard]] auto F() { return hmps::matrices(gradient); }
+};
+
+/// Particles at the centres of the cells of a cubic lattice that fill [0, n0 l0] x [0, n1 l0] (x ...), and `below` and
+/// `above` layers more along the first axis.
+template <int D>
+[[nodiscard]] std::vector<hmps::Vector<double, D>> cells(double l0, const std::array<int, D>& n, int below = 0,
+                                                         int above = 0) {
+  hmps::Vector<double, D> lower = hmps::Vector<double, D>::Zero(), upper;
+  for (std::size_t c = 0; c < D; ++c) upper[static_cast<int>(c)] = l0 * n[c];
+  lower[0] = -l0 * below;
+  upper[0] += l0 * above;
+  const hmps::Box<double, D> box{lower, upper};
+  return hmps::fill_lattice(box, box, l0, hmps::Vector<double, D>(hmps::Vector<double, D>::Constant(l0 / 2)));
+}
+
+/// Calls `use(force)` with the internal force of `body`, whose bonds are `bonds`, by `method`; the force keeps the
+/// deformation gradients in `body` up to date.
+template <int D, hmps::Bonds B, class Law, class Use>
+decltype(auto) with_force(const Method& method, Body<D>& body, const B& bonds, const Law& law, Use&& use) {
+  auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus_of(method, law)),
+                                    hmps::record(body.F()));
+  return std::forward<Use>(use)(force);
+}
+
+/// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced forces
+/// are `tolerance` times `load` (N, in two dimensions N/m; 0: what the others carry).
+template <int D, class Force, class Moves>
+hmps::Relaxation settle(Body<D>& body, Force&& force, Moves&& moves, double load, double tolerance) {
+  constexpr double density = 1000;  // means nothing in statics
+  return hmps::relax(force, body.x(), body.v(), body.f(), density,
+                     {.spacing = body.spacing, .tolerance = tolerance, .load = load, .moves = moves});
+}
+
+}  // namespace verification
