@@ -49,7 +49,8 @@ struct Epiglottis {
   [[nodiscard]] static double half_width(double arc) {
     const double s = std::clamp(arc / (0.6 * length), 0.0, 1.0);
     if (s < 1) return 6 + 6 * s * s * (3 - 2 * s);
-    return 12 * std::sqrt(1 - std::pow((arc / length - 0.6) / 0.42, 3));
+    // Blunt: how far the leaf's corners reach must not hang on where a coarse lattice cuts a point.
+    return 12 * std::sqrt(1 - std::pow((arc / length - 0.6) / 0.42, 6));
   }
   [[nodiscard]] static std::vector<hmps::PlateRow<double>> rows() {
     std::vector<hmps::PlateRow<double>> rows;
@@ -60,11 +61,14 @@ struct Epiglottis {
     return rows;
   }
   [[nodiscard]] double arc(const Point& x) const { return leaf.arc(x); }
+  /// About the distance (mm) to the faces and the edges, negative inside; the leaf goes on beyond its ends.
+  [[nodiscard]] double surface(const Point& x) const {
+    return std::max(std::abs(normal(x)) - wall / 2, std::abs(x[1]) - half_width(leaf.arc(x)));
+  }
   /// Flat faces and square edges: a superelliptic section would thin the edges to one particle.
   [[nodiscard]] double operator()(const Point& x) const {
     if (std::abs(x[1]) > 13 || x[0] < -16 || x[0] > 12 || x[2] < 10 || x[2] > 54) return 10;
-    const double s = leaf.arc(x);
-    return std::max({std::abs(normal(x)) - wall / 2, std::abs(x[1]) - half_width(s), std::abs(ahead(x)) - 0.3});
+    return std::max(surface(x), std::abs(ahead(x)) - 0.3);
   }
   /// Distance (mm) above the tip, negative below the base, between them zero.
   [[nodiscard]] double ahead(const Point& x) const {
@@ -188,7 +192,8 @@ struct Larynx {
 struct Pharynx {
   static constexpr double bottom = -30;
   static constexpr double top = 96;
-  static constexpr double closed_below = 31;  ///< mm, upper edge of the front wall
+  static constexpr double posterior_wall = 10.8;  ///< mm, x of its surface beside the tip of the epiglottis
+  static constexpr double closed_below = 31;      ///< mm, upper edge of the front wall
   static constexpr double esophagus_below = -9;
   /// z: widest at x, surface of the posterior wall, half width, surface of the front wall
   Rows<5> profile{{{-40, 12.2, 13.4, 7, 11},
@@ -282,6 +287,12 @@ struct Anatomy {
     // The tongue's lower surface ends where the channel begins.
     if (tongue(x) < 0 && (x[2] > Pharynx::closed_below || channel > 0)) return Organ::tongue;
     return Organ::none;
+  }
+  /// About the distance (mm) to the drawn surface of the organs between which the epiglottis folds, negative inside.
+  [[nodiscard]] double surface(const Point& x) const {
+    // The leaf's faces would go on through the posterior wall.
+    const double leaf = std::max(epiglottis.surface(x), std::abs(epiglottis.ahead(x)) - 3);
+    return std::min({leaf, pharynx(x), tongue(x)});
   }
 
  private:

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "registration.hpp"
 #include "scene.hpp"
 
 namespace swallowing {
@@ -132,6 +131,37 @@ struct Body {
   return near;
 }
 
+/// How far regions E and F move along the leaf in the first half second, in m, so that it ends where it is drawn: its
+/// end lies between two planes of the lattice, up to a spacing off, which decides how hard it rubs on the posterior
+/// wall.
+[[nodiscard]] inline Point leaf_placement(const Body& body, double spacing) {
+  const double angle = Epiglottis::angle(0.8 * Epiglottis::length);
+  const Point along(std::cos(angle), 0, std::sin(angle));
+  double reach = -2 * spacing;
+  for (std::size_t i = 0; i < body.points.size(); ++i)
+    if (body.organ[i] == Organ::epiglottis && std::abs(body.points[i][1]) < 4e-3)
+      reach = std::max(reach, along.dot(body.points[i] - 1e-3 * Epiglottis::midline(Epiglottis::length)) + spacing / 2);
+  return -reach * along;
+}
+
+/// The outermost particles of the organs between which the epiglottis folds, as contact shall see them: at the drawn
+/// surface, from which those of a lattice that cuts it lie up to half a spacing off. Those a spacing off or more stay
+/// where they are: they belong to joints and ends.
+[[nodiscard]] inline hmps::RaisedSkin<double, 3> raised_skin(const Scene& scene, const Body& body,
+                                                             const Anatomy& anatomy) {
+  const double l0 = scene.spacing;
+  const auto surface = [&](const Point& x) { return 1e-3 * anatomy.surface(1e3 * x); };
+  const auto depth = depths(body, l0);
+  std::vector<hmps::Index> skin;
+  for (std::size_t i = 0; i < body.points.size(); ++i) {
+    const Organ organ = body.organ[i];
+    if (depth[i] > 0 || (organ != Organ::epiglottis && organ != Organ::pharynx && organ != Organ::tongue)) continue;
+    const auto offset = hmps::RaisedSkin<double, 3>::offset_of(body.points[i], surface, l0);
+    if (offset && offset->norm() < l0) skin.push_back(static_cast<hmps::Index>(i));
+  }
+  return {hmps::vectors(scene.reference), skin, surface, l0};
+}
+
 /// Fills `scene.contacts` for the pairs in `touching`, but for those with region H.
 inline void declare_contacts(Scene& scene, const Body& body) {
   const auto depth = depths(body, scene.spacing);
@@ -151,8 +181,7 @@ inline void declare_contacts(Scene& scene, const Body& body) {
 /// Appends the plates of region H and their contact with the wall to `scene`. Nothing is bonded to them, so that they
 /// need no lattice: rows of particles a spacing apart follow the wall at one distance from its drawn inner surface,
 /// whatever the spacing.
-inline void add_constrictors(Scene& scene, const Anatomy& anatomy, double wall_thickness,
-                             const Constrictors& constrictors) {
+inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constrictors& constrictors) {
   const double l0 = 1e3 * scene.spacing;
   // Two layers of particles carry all of a metaball wall.
   const int layers = std::max(2, static_cast<int>(std::lround(Anatomy::plate / l0)));
@@ -174,7 +203,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, double wall_t
     const std::size_t right = scene.regions.size() - 1;
     const auto [_, widest, back, half_width, front] = anatomy.pharynx.profile(z);
     for (int layer = 0; layer < layers; ++layer) {
-      const double distance = wall_thickness + Anatomy::plate_gap + (layer + 0.5) * l0;
+      const double distance = wall + Anatomy::plate_gap + (layer + 0.5) * l0;
       // Along the ellipse of the channel from its side to the back, in tenths of a degree.
       double walked = l0;
       Point last = Point::Zero();
@@ -204,8 +233,10 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, double wall_t
                 " m; give 0.5e-3 to 2.4e-3, the sheets of 4.8 mm need two particles");
   const Anatomy anatomy;
   const hmps::Box<double, 3> box{1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
-  // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other.
-  const Point origin = l0 * Point(settings.lattice_shift, 0.5, settings.lattice_shift);
+  // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other. A plane
+  // of particles along the posterior wall, which then is no staircase; along z the same for want of a reason.
+  const double plane = 1e-3 * Pharynx::posterior_wall + (0.5 + settings.lattice_shift) * l0;
+  const Point origin(plane, l0 / 2, plane);
 
   const detail::Body body(anatomy, box, l0, origin);
 
@@ -228,14 +259,10 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, double wall_t
     if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
   }
   detail::declare_contacts(scene, body);
-  const Registration registration = detail::registration(anatomy, body.points, body.organ, l0);
-  for (Region& region : scene.regions) {
-    if (region.name == "G") region.placement = 1e-3 * registration.vertebrae;
-    if (region.name == "B1") region.placement = 1e-3 * registration.tongue_base;
-    if (region.name == "E" || region.name == "F") region.placement = 1e-3 * registration.epiglottis;
-  }
-  if (settings.constrictors)
-    detail::add_constrictors(scene, anatomy, registration.wall, read_constrictors(settings.data));
+  scene.skin = detail::raised_skin(scene, body, anatomy);
+  for (Region& region : scene.regions)
+    if (region.name == "E" || region.name == "F") region.placement = detail::leaf_placement(body, l0);
+  if (settings.constrictors) detail::add_constrictors(scene, anatomy, read_constrictors(settings.data));
   std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
   return scene;
 }

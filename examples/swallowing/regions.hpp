@@ -23,7 +23,7 @@ struct Region {
   int number = 0;
   double side = 0;                  ///< -1 or 1 for one of a pair, the sign of y
   double height = 0;                ///< mm
-  Point placement = Point::Zero();  ///< m, by which it moves in the first half second, see registration.hpp
+  Point placement = Point::Zero();  ///< m, by which it moves in the first half second, see `tip_placement`
 };
 
 /// Middle of the control regions of the tongue in degrees about its centre, and their half angle.
@@ -66,7 +66,7 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
       if (y < 6 && depth < 4.8)
         for (std::size_t k = 0; k < tongue_regions.size(); ++k)
           if (std::abs(angle - tongue_regions[k].angle) < tongue_regions[k].half) return B + static_cast<int>(k);
-      if ((angle > 62 && y > 0.74 * row[2] && depth < 9.5) || (angle > 143 && depth < 6)) return A;
+      if (angle > 62 && y > 0.74 * row[2] && depth < 9.5) return A;
       return -1;
     }
     case Organ::soft_palate: {

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <hmps/contact/raised_skin.hpp>
 #include <hmps/core/error.hpp>
 #include <hmps/core/types.hpp>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -24,7 +26,7 @@ namespace swallowing {
 
 struct SceneSettings {
   double spacing = 2.4e-3;   ///< l0 in m
-  double lattice_shift = 0;  ///< of the lattice along x and z, in spacings
+  double lattice_shift = 0;  ///< of the lattice along x and z, in spacings, from where `make_scene` puts it
   Model model = Model::X;
   bool constrictors = true;    ///< with region H
   std::filesystem::path data;  ///< folder of the motion, whose constrictors.csv shapes region H
@@ -57,8 +59,9 @@ struct Scene {
       cut;  ///< sorted pairs (i < j) nearer than the effective radius that air divides
   std::vector<ContactPair> contacts;
   std::vector<hmps::Index> base, centre,
-      tip;                  ///< of the epiglottis in the midline: arcs at region E, region F, the end
-  std::size_t removed = 0;  ///< weakly supported particles that were left out
+      tip;  ///< of the epiglottis in the midline: arcs at region E, region F, the end
+  std::optional<hmps::RaisedSkin<double, 3>> skin;  ///< where contact sees the organs' particles: at the drawn surface
+  std::size_t removed = 0;                          ///< weakly supported particles that were left out
 
   /// Whether two particles of the body are bonded if they are near enough: not across an air gap.
   [[nodiscard]] bool bonded(std::size_t i, std::size_t j) const {

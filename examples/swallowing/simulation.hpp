@@ -42,6 +42,7 @@ class Simulation {
         materials_(materials),
         execute_{settings.threads},
         x_(scene.reference.size()),
+        places_(x_.size()),
         v_(3 * x_.size(), S(0)),
         f_(3 * x_.size()),
         F_(9 * x_.size(), S(0)),
@@ -79,7 +80,9 @@ class Simulation {
 
     const auto start = std::chrono::steady_clock::now();
     std::fill(f_.begin(), f_.end(), S(0));
-    report_ = contact_(x, v, gradients(), time_step_, forces(), execute_);
+    // Contact sees the drawn surfaces, not the stairs of the lattice.
+    (*scene_->skin)(x, gradients(), hmps::vectors(places_), execute_);
+    report_ = contact_(hmps::vectors(places_), v, gradients(), time_step_, forces(), execute_);
     for (const auto& region : regions_) region.unload(forces());
     hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -205,7 +208,7 @@ class Simulation {
   const Scene* scene_;
   Materials materials_;
   hmps::OpenMP execute_;
-  std::vector<Eigen::Vector3d> x_;
+  std::vector<Eigen::Vector3d> x_, places_;
   std::vector<S> v_, f_, F_, modulus_;
   hmps::LatticeBonds<S, 3> bonds_;
   decltype(hmps::internal_force(std::declval<const hmps::LatticeBonds<S, 3>&>(),

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,23 +43,34 @@ class RaisedSkin {
       require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
               reference.size(), " particles");
       const Vector<double, D> start = reference[i].template cast<double>();
-      Vector<double, D> place = start;
-      // For a true distance the first pass is exact.
-      for (int pass = 0; pass < 3; ++pass) {
-        Vector<double, D> outward;
-        for (int c = 0; c < D; ++c) {
-          const Vector<double, D> step = 1e-3 * spacing * Vector<double, D>::Unit(c);
-          outward[c] = (distance(shape, place + step) - distance(shape, place - step)) / (2e-3 * spacing);
-        }
-        require(outward.squaredNorm() > 1e-2, "hmps: the shape does not tell where the surface is from particle ", i,
-                " at (", start.transpose(), "); give about the signed distance in m");
-        place -= (distance(shape, place) + 0.5 * spacing) / outward.squaredNorm() * outward;
-      }
-      const Vector<double, D> offset = place - start;
-      require(offset.norm() < 1.5 * spacing, "hmps: particle ", i, " at (", start.transpose(), ") lies ", offset.norm(),
-              " m from where a layer along the surface would; only the outermost layer can be raised");
-      offset_.push_back(offset.template cast<S>());
+      const auto offset = offset_of(start, shape, spacing);
+      require(offset.has_value(), "hmps: particle ", i, " at (", start.transpose(),
+              ") cannot be raised to the surface: ",
+              "it is not of the outermost layer, or the shape does not tell which way is out there; leave it out, or "
+              "give about the signed distance in m");
+      offset_.push_back(offset->template cast<S>());
     }
+  }
+
+  /// The offset in m of a particle at `start`, or nothing if it lies further than 1.5 spacings from where it should or
+  /// the shape does not tell which way is out.
+  template <class Shape>
+  [[nodiscard]] static std::optional<Vector<double, D>> offset_of(const Vector<double, D>& start, const Shape& shape,
+                                                                  double spacing) {
+    Vector<double, D> place = start;
+    // For a true distance the first pass is exact.
+    for (int pass = 0; pass < 3; ++pass) {
+      Vector<double, D> outward;
+      for (int c = 0; c < D; ++c) {
+        const Vector<double, D> step = 1e-3 * spacing * Vector<double, D>::Unit(c);
+        outward[c] = (distance(shape, place + step) - distance(shape, place - step)) / (2e-3 * spacing);
+      }
+      if (!(outward.squaredNorm() > 1e-2)) return std::nullopt;
+      place -= (distance(shape, place) + 0.5 * spacing) / outward.squaredNorm() * outward;
+    }
+    const Vector<double, D> offset = place - start;
+    if (!(offset.norm() < 1.5 * spacing)) return std::nullopt;
+    return offset;
   }
 
   /// Writes to `places` what contact shall see: the positions `x`, and x + F d for the skin, in m.

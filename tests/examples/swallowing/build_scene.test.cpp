@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "registration.hpp"
+#include "build_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "build_scene.hpp"
 #include "motion.hpp"
 
 namespace {
@@ -25,16 +24,18 @@ class Conformed {
         motion_(SWALLOWING_DATA),
         scene_(make_scene({.spacing = spacing, .lattice_shift = shift, .data = SWALLOWING_DATA})) {}
 
-  /// x of the inner surface of the posterior wall beside the tip of the epiglottis.
+  /// x of the inner surface of the posterior wall beside the tip of the epiglottis, as contact sees it.
   [[nodiscard]] double posterior_wall() const {
-    double first = 1e9, moved = 0;
+    std::vector<Eigen::Vector3d> places(scene_.reference.size());
+    std::vector<Eigen::Matrix3d> F(places.size(), Eigen::Matrix3d::Identity());
+    (*scene_.skin)(hmps::vectors(scene_.reference), hmps::matrices(F), hmps::vectors(places));
+    double first = 1e9;
     for (std::size_t i = 0; i < scene_.elastic_count; ++i) {
       const Point x = 1e3 * scene_.reference[i];
-      if (x[2] < 45 || x[2] > 65 || std::abs(x[1]) > 2 || x[0] < 0) continue;
-      if (scene_.organ[i] == Organ::pharynx) first = std::min(first, x[0]);
-      if (scene_.organ[i] == Organ::vertebrae) moved = 1e3 * conformed(i)[0] - x[0];
+      if (x[2] < 45 || x[2] > 65 || std::abs(x[1]) > 2 || x[0] < 0 || scene_.organ[i] != Organ::pharynx) continue;
+      first = std::min(first, 1e3 * places[i][0]);
     }
-    return first - l0_ / 2 + moved;
+    return first - l0_ / 2;
   }
   /// How far the surface of the leaf reaches along its upper end from where its midline is drawn to end.
   [[nodiscard]] double tip() const {
@@ -62,17 +63,17 @@ class Conformed {
   Scene scene_;
 };
 
-// Half a spacing of the lattice is 1.2 mm; after the body has conformed it no longer matters.
-TEST(Registration, TheWallAndTheTipEndWhereTheyAreDrawnWhereverTheLatticeIs) {
-  for (const double shift : {0.0, 0.25, 0.5, 0.75}) {
-    const Conformed body(2.4e-3, shift);
-    // The drawn wall recedes by 0.4 mm over the width of region G.
-    EXPECT_NEAR(body.posterior_wall(), 10.8, 0.3) << "shift " << shift;
-    EXPECT_NEAR(body.tip(), 0, 0.02) << "shift " << shift;
-  }
+// Half a spacing of the lattice is 1.2 mm. Contact does not see it on the wall, and the tip has been moved by 0.5 s.
+TEST(BuildScene, PutsTheWallAndTheTipWhereTheyAreDrawnWhereverTheLatticeIs) {
+  for (const double spacing : {2.4e-3, 1.8e-3})
+    for (const double shift : {0.0, 0.5}) {
+      const Conformed body(spacing, shift);
+      EXPECT_NEAR(body.posterior_wall(), 10.8, 0.1) << spacing << " shift " << shift;
+      EXPECT_NEAR(body.tip(), 0, 0.02) << spacing << " shift " << shift;
+    }
 }
 
-TEST(Registration, PlatesKeepOneDistanceFromTheWallWhateverTheSpacing) {
+TEST(BuildScene, KeepsThePlatesAtOneDistanceFromTheWallWhateverTheSpacing) {
   for (const double spacing : {2.4e-3, 1.8e-3}) {
     const Scene scene = make_scene({.spacing = spacing, .data = SWALLOWING_DATA});
     double plate = 1e9, wall = 0;
