@@ -67,7 +67,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One step of the paper's scheme, \paper{2, 3, 4}.
+  /// One step of the paper's scheme, \paper{2, 3, 4}. Throws `StateError` where a wall loses a slave.
   void step() {
     const auto x = positions();
     const auto v = velocities();
@@ -80,6 +80,7 @@ class Simulation {
     const auto start = std::chrono::steady_clock::now();
     std::fill(f_.begin(), f_.end(), S(0));
     report_ = contact_(x, v, gradients(), time_step_, forces(), execute_);
+    contact_.check(report_, time());
     for (const auto& region : regions_) region.unload(forces());
     hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
