@@ -21,6 +21,7 @@ struct Case {
   double viscosity = 0;  ///< m2/s
   double penalty = 0;    ///< k dt_c^2 / rho, dt_c the limit without contact; two bodies then
   double dt_c = 0;       ///< s
+  bool held = false;     ///< the second body does not move
 };
 
 /// The composed force of a case, on one body or two that are pressed together.
@@ -29,6 +30,7 @@ class Tissue {
  public:
   explicit Tissue(const Case& c)
       : body_(points(c)),
+        movable_(c.held ? split(c) : body_.size()),
         law_(hmps::MooneyRivlin<>::from_young(young, c.ratio * young / 6)),
         bonds_(body_.X(), {.spacing = spacing, .radius_ratio = c.radius},
                [half = split(c)](std::size_t i, std::size_t j) { return (i < half) == (j < half); }),
@@ -46,6 +48,7 @@ class Tissue {
   Body<S>& body() { return body_; }
   [[nodiscard]] const auto& bonds() const { return bonds_; }
   [[nodiscard]] bool touches() const { return !skin_[0].empty(); }
+  [[nodiscard]] bool moves(std::size_t i) const { return i < movable_; }
   [[nodiscard]] double sound() const { return hmps::sound_speed(law_, density); }
 
   template <class X, class V, class F>
@@ -109,6 +112,7 @@ class Tissue {
   }
 
   Body<S> body_;
+  std::size_t movable_;  ///< so many particles, the first ones, move
   hmps::MooneyRivlin<> law_;
   List bonds_;
   hmps::InternalForce<List, hmps::Elastic<hmps::MooneyRivlin<>>> elastic_;
@@ -139,14 +143,17 @@ bool alternates(Tissue<S>& scene, double dt) {
   restore();
   scene(body.x(), body.v(), body.f());
   const auto dead = body.load;  // holds what the force is at the start
-  for (std::size_t i = 0; i < body.size(); ++i)
+  for (std::size_t i = 0; i < body.size() && scene.moves(i); ++i)
     for (int c = 0; c < 3; ++c)
       body.velocity[i][c] = static_cast<S>(noise * hmps::detail::noise(3 * i + static_cast<std::uint64_t>(c)));
   auto before = body.velocity;
   bool found = false;
   for (int step = 1; step <= steps && !found; ++step) {
     scene(body.x(), body.v(), body.f());
-    for (std::size_t i = 0; i < body.size(); ++i) body.load[i] -= dead[i];
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      body.load[i] -= dead[i];
+      if (!scene.moves(i)) body.load[i].setZero();
+    }
     if (step % every == 0) before = body.velocity;
     hmps::kick(body.v(), body.f(), density, dt);
     hmps::drift(body.x(), body.v(), dt, hmps::vectors(body.carry));
@@ -190,6 +197,7 @@ template <class S>
 Found find(const Case& c) {
   Tissue<S> scene(c);
   hmps::StableStepSettings settings{.spacing = spacing};
+  settings.moves = [&scene](std::size_t i) { return scene.moves(i); };
   if (c.penalty > 0) settings.perturbation = 1e-6;  // far less than the penetration
   const auto found = hmps::stable_step(scene, scene.body().x(), scene.body().v(), density, settings);
   std::string text;
@@ -228,7 +236,7 @@ Table courant(bool quick, std::vector<Ratio>& ratios) {
   Table table{"courant",
               {"Scene", "Value", "Largest step, l0 / c_p", "Step / largest, double", "Limit / largest, double",
                "Step / largest, float", "Support", "Cause", "Evaluations"}};
-  double dt_c = 0;
+  double dt_c = 0, thin_dt_c = 0;
   const auto add = [&](const Case& c) {
     // Contact by a penetration of a hundred-thousandth of a spacing is beyond float.
     const bool both = c.penalty == 0;
@@ -248,7 +256,9 @@ Table courant(bool quick, std::vector<Ratio>& ratios) {
   };
   for (const Case& c : cases(quick)) {
     const Found d = add(c);
-    if (c.group == "layers" && c.layers == 4) dt_c = d.measured;  // the bodies in contact are as thick
+    // The bodies in contact are as thick.
+    if (c.group == "layers" && c.layers == 4) dt_c = d.measured;
+    if (c.group == "layers" && c.layers == 2) thin_dt_c = d.measured;
   }
   for (const double k : quick ? std::vector<double>{1} : std::vector<double>{0.1, 0.3, 1, 3, 10}) {
     const Case c{.group = "contact, k dt_c^2 / rho", .name = digits(k), .layers = 4, .penalty = k, .dt_c = dt_c};
@@ -256,6 +266,16 @@ Table courant(bool quick, std::vector<Ratio>& ratios) {
     // dt = dt_c sqrt(1 - k~) with k~ = k dt^2 / rho: solved for dt.
     table.rows.push_back({"by dt_c sqrt(1 - k~)", digits(k), places(dt_c / std::sqrt(1 + k) * d.sound / spacing), "",
                           "", "", "", "rule / largest: " + places(dt_c / std::sqrt(1 + k) / d.measured), ""});
+  }
+  for (const double k : quick ? std::vector<double>{} : std::vector<double>{1, 10}) {
+    const std::string name = digits(k);
+    add({.group = "on a held body, k dt_c^2 / rho",
+         .name = name,
+         .layers = 4,
+         .penalty = k,
+         .dt_c = dt_c,
+         .held = true});
+    add({.group = "of 2 layers each, k dt_c^2 / rho", .name = name, .layers = 2, .penalty = k, .dt_c = thin_dt_c});
   }
   return table;
 }
