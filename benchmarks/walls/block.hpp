@@ -19,11 +19,44 @@ inline constexpr int side = 6, height = 4;                               // of t
 
 /// A block of soft tissue on a wall: pressed by a rigid plate on its top, that slides along x, or free on an incline.
 struct Scene {
-  double degrees = 0;   ///< between the wall and its lattice
-  bool raised = false;  ///< skin of the wall
+  double degrees = 0;   ///< between surface and lattice
+  bool raised = false;  ///< contact sees the skin that is cut raised to the surface
   double friction = 0;
   double incline = 0;  ///< degrees; free if not zero
+  bool soft = false;   ///< it is the block that is cut, not the wall
 };
+
+/// The particles of a scene, those of the block first.
+struct Bodies {
+  std::vector<Point> reference = {};
+  std::size_t count = 0;                               ///< of the block
+  std::vector<hmps::Index> bottom, lower, plate = {};  ///< of the block: slaves, masters, what is led
+  std::vector<hmps::Index> skin, masters = {};         ///< of the wall
+};
+[[nodiscard]] inline Bodies bodies(const Scene& scene, const Wall& wall) {
+  Bodies all;
+  const auto add = [&](const Point& place, bool is_bottom, bool is_lower, bool is_top) {
+    const auto index = static_cast<hmps::Index>(all.reference.size());
+    if (is_bottom) all.bottom.push_back(index);
+    if (is_lower) all.lower.push_back(index);
+    if (is_top && scene.incline == 0) all.plate.push_back(index);
+    all.reference.push_back(place);
+  };
+  if (scene.soft) {
+    const double width = side * spacing, angle = scene.degrees * std::numbers::pi / 180;
+    for (const Point& place : lattice(angle, 0.13, {0, 0}, {width, width}, spacing))
+      if (const double z = place[2] / spacing; z > 0 && z < height) add(place, z < std::cos(angle), z<3, z> height - 1);
+  } else {
+    for (int k = 0; k < height; ++k)
+      for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) add(spacing * Point(i, j, k + 0.6), k == 0, k < 3, k == height - 1);
+  }
+  all.count = all.reference.size();
+  for (const hmps::Index i : wall.skin) all.skin.push_back(static_cast<hmps::Index>(i + all.count));
+  for (const hmps::Index i : wall.all) all.masters.push_back(static_cast<hmps::Index>(i + all.count));
+  all.reference.insert(all.reference.end(), wall.places.begin(), wall.places.end());
+  return all;
+}
 
 /// What a run gave. Means are over whole steps of the stairs, on the incline over the second half.
 struct Outcome {
@@ -44,37 +77,22 @@ struct Outcome {
 template <class Ball, class Friction>
 [[nodiscard]] Outcome run(const Scene& scene) {
   const bool free = scene.incline != 0;
-  Wall wall{.degrees = scene.degrees, .raised = scene.raised, .spacing = spacing};
-  const double lead = 3 * spacing, rim = 4 * spacing, width = side * spacing;
-  const double measured = wall.stretch();
+  const Wall cut{.degrees = scene.degrees, .spacing = spacing};
+  Wall wall{.degrees = scene.soft ? 0 : scene.degrees, .raised = scene.raised && !scene.soft, .spacing = spacing};
+  const double lead = 3 * spacing, rim = 4 * spacing, width = side * spacing, measured = cut.stretch();
   wall.fill({-rim, -rim}, {width + rim + 2 * lead + measured, width + rim});
-
-  // The block first.
-  std::vector<Point> position;
-  std::vector<hmps::Index> bottom, lower, plate, skin, masters;
-  for (int k = 0; k < height; ++k)
-    for (int j = 0; j < side; ++j)
-      for (int i = 0; i < side; ++i) {
-        const auto index = static_cast<hmps::Index>(position.size());
-        if (k == 0) bottom.push_back(index);
-        if (k < 3) lower.push_back(index);
-        if (k == height - 1 && !free) plate.push_back(index);
-        position.push_back(spacing * Point(i, j, k + 0.6));
-      }
-  const std::size_t count = position.size();
-  for (const hmps::Index i : wall.skin) skin.push_back(static_cast<hmps::Index>(i + count));
-  for (const hmps::Index i : wall.all) masters.push_back(static_cast<hmps::Index>(i + count));
-  position.insert(position.end(), wall.places.begin(), wall.places.end());
-  const auto reference = position;
+  const auto [reference, count, bottom, lower, plate, skin, masters] = bodies(scene, wall);
+  auto position = reference, places = reference;
   std::vector<Point> velocity(position.size(), Point::Zero()), load = velocity;
   std::vector<hmps::Matrix<double, 3>> gradient(position.size(), hmps::Matrix<double, 3>::Identity());
   const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);
-  const auto block = [count](const auto& view) { return view.part(0, count); };
+  const auto F = hmps::matrices(gradient);
+  const auto block = [count = count](const auto& view) { return view.part(0, count); };
 
-  const hmps::LatticeBonds<double, 3> bonds(block(hmps::vectors(reference)), {.spacing = spacing});
-  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(young, bulk)),
-                                    hmps::artificial(young / 2), hmps::viscous(density, viscosity),
-                                    hmps::record(block(hmps::matrices(gradient))));
+  const hmps::BondList<double, 3> bonds(block(hmps::vectors(reference)), {.spacing = spacing});
+  auto force =
+      hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(young, bulk)),
+                           hmps::artificial(young / 2), hmps::viscous(density, viscosity), hmps::record(block(F)));
   constexpr double ratio = 0.05;
   const double dt =
       0.6 * std::sqrt(1 - ratio) * hmps::stable_step(force, block(x), block(v), density, {.spacing = spacing}).step;
@@ -87,6 +105,16 @@ template <class Ball, class Friction>
   const auto above = contact.add_organ({"block", bottom, lower});
   const auto pair = contact.add_pair(below, above);
 
+  // What contact sees.
+  const hmps::HalfSpace<double, 3> above_surface{Point::Zero(), -Point::UnitZ()};
+  const std::vector<hmps::Index> none;
+  const hmps::RaisedSkin<double, 3> raise(block(hmps::vectors(reference)), scene.soft && scene.raised ? bottom : none,
+                                          above_surface, spacing);
+  const auto touch = [&] {
+    raise(x, F, hmps::vectors(places));
+    (void)contact(hmps::vectors(places), v, F, dt, f);
+  };
+
   // The block starts where the wall bears its weight.
   const double volume = spacing * spacing * spacing, area = width * width;
   const auto clear = [&] { std::fill(load.begin(), load.end(), Point::Zero()); };
@@ -97,7 +125,7 @@ template <class Ball, class Friction>
   while (high - low > 1e-6 * spacing) {
     lift_to((low + high) / 2);
     clear();
-    contact(x, v, hmps::matrices(gradient), dt, f);
+    touch();
     (-contact.force_on_first(pair)[2] > density * gravity * static_cast<double>(count) * volume ? low : high) =
         (low + high) / 2;
   }
@@ -132,7 +160,7 @@ template <class Ball, class Friction>
     lead_plate();
     clear();
     const double before = processor_seconds();
-    contact(x, v, hmps::matrices(gradient), dt, f);
+    touch();
     seconds += processor_seconds() - before;
     hmps::kick(block(v), block(f), density, dt);
     lead_plate();

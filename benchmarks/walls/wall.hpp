@@ -11,6 +11,27 @@ namespace walls {
 
 using Point = hmps::Vector<double, 3>;
 
+/// The places of a lattice that is turned by `angle` (rad) about y against z = 0, over a rectangle of that plane and
+/// `depth` spacings above and below it; `phase` (in spacings) shifts it against the plane.
+[[nodiscard]] inline std::vector<Point> lattice(double angle, double phase, const hmps::Vector<double, 2>& lower,
+                                                const hmps::Vector<double, 2>& upper, double spacing,
+                                                double depth = 4) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Point along(c, 0, s), up(-s, 0, c);
+  std::vector<Point> places;
+  const int reach = static_cast<int>(std::ceil((upper - lower).norm() / spacing)) + 8;
+  for (int j = static_cast<int>(lower[1] / spacing) - 1; j <= upper[1] / spacing + 1; ++j)
+    for (int i = -reach; i <= reach; ++i)
+      for (int k = -reach; k <= reach; ++k) {
+        const Point place =
+            spacing * (i * along + (j + 0.2) * Point::UnitY() + (k - phase) * up) + Point(lower[0], 0, 0);
+        if (place[0] >= lower[0] && place[0] <= upper[0] && place[1] >= lower[1] && place[1] <= upper[1] &&
+            std::abs(place[2]) <= depth * spacing)
+          places.push_back(place);
+      }
+  return places;
+}
+
 /// A rigid wall below z = 0 that is cut out of a lattice: `degrees` between its surface and the lattice, about y.
 struct Wall {
   double degrees = 0;
@@ -28,26 +49,15 @@ struct Wall {
 
   /// Fills lower[0] <= x <= upper[0] and the same in y, four layers deep.
   void fill(const hmps::Vector<double, 2>& lower, const hmps::Vector<double, 2>& upper) {
-    const double c = std::cos(angle()), s = std::sin(angle());
-    const Point along(c, 0, s), up(-s, 0, c);
     // A wall along its lattice has its outermost particles half a spacing below its surface; so have the others on
     // the average.
-    const double phase = degrees > 0 ? 0.13 : 0.5;
-    const int reach = static_cast<int>(std::ceil((upper - lower).norm() / spacing)) + 8;
-    for (int j = static_cast<int>(lower[1] / spacing) - 1; j <= upper[1] / spacing + 1; ++j)
-      for (int i = -reach; i <= reach; ++i)
-        for (int k = -reach; k <= reach; ++k) {
-          const Point place =
-              spacing * (i * along + (j + 0.2) * Point::UnitY() + (k - phase) * up) + Point(lower[0], 0, 0);
-          const double depth = -place[2] / spacing;
-          if (depth < 0 || depth > 4 || place[0] < lower[0] || place[0] > upper[0] || place[1] < lower[1] ||
-              place[1] > upper[1])
-            continue;
-          // The next place of the lattice upwards is outside.
-          if (depth < c) skin.push_back(static_cast<hmps::Index>(places.size()));
-          all.push_back(static_cast<hmps::Index>(places.size()));
-          places.push_back(place);
-        }
+    for (const Point& place : lattice(angle(), degrees > 0 ? 0.13 : 0.5, lower, upper, spacing)) {
+      if (place[2] > 0) continue;
+      // The next place of the lattice upwards is outside.
+      if (-place[2] < spacing * std::cos(angle())) skin.push_back(static_cast<hmps::Index>(places.size()));
+      all.push_back(static_cast<hmps::Index>(places.size()));
+      places.push_back(place);
+    }
     if (!raised) return;
     const hmps::HalfSpace<double, 3> inside{Point::Zero(), Point::UnitZ()};
     const hmps::RaisedSkin<double, 3> raise(hmps::vectors(places), skin, inside, spacing);

@@ -68,7 +68,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One step of the paper's scheme, \paper{2, 3, 4}.
+  /// One step of the paper's scheme, \paper{2, 3, 4}. Throws `StateError` where a wall loses a slave.
   void step() {
     const auto x = positions();
     const auto v = velocities();
@@ -83,6 +83,7 @@ class Simulation {
     // Contact sees the drawn surfaces, not the stairs of the lattice.
     (*scene_->skin)(x, gradients(), hmps::vectors(places_), execute_);
     report_ = contact_(hmps::vectors(places_), v, gradients(), time_step_, forces(), execute_);
+    contact_.check(report_, time());
     for (const auto& region : regions_) region.unload(forces());
     hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

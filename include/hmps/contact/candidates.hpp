@@ -79,7 +79,8 @@ class Candidates {
   struct Side {
     std::size_t slaves, masters;  // organs
     std::size_t pair;
-    S limit;  // motion that the outer list bears
+    std::size_t first_seat;  // its slaves have a seat each, for what is to be remembered of them from call to call
+    S limit;                 // motion that the outer list bears
   };
   struct Pair {
     std::size_t first, second;
@@ -89,6 +90,7 @@ class Candidates {
   struct Row {
     Index slave;  // of the awake particles
     std::uint32_t side;
+    Index seat;
     Index begin;    // of its candidates
     S compression;  // bound of |F_j^-1| of its masters until the next check
   };
@@ -110,7 +112,7 @@ class Candidates {
   std::vector<Index> entry_of;    // per candidate, its place among the entries of its master
   std::vector<Index> entry_rows;  // per entry, the row of that candidate: ascending for each master
   std::vector<Index> slave_rows;  // the rows of each slave, ascending
-  std::size_t rebuilds = 0, checks = 0, late = 0;
+  std::size_t rebuilds = 0, checks = 0, late = 0, seats = 0;
 
   /// `spacing` and `skin` in m.
   Candidates(S spacing, S skin)
@@ -153,6 +155,7 @@ class Candidates {
   struct OuterRow {
     Index slave;  // of the numbered particles
     std::uint32_t side;
+    Index seat;
     Index begin, kept;  // of its candidates, and the end of those within reach before the next check
     S compression;
     S rest;  // by which share of its bound each of its particles may move before it has to wake; zero: awake

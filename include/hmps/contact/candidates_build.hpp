@@ -60,7 +60,8 @@ void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
           organs[masters].name, "'; give it slaves, or let only the other be slave");
   require(any(masters, is_master), "hmps: organ '", organs[masters].name, "' has no masters but is to be touched by '",
           organs[slaves].name, "'; give it masters, or let only it be slave");
-  sides.push_back({slaves, masters, pairs.size() - 1, 0});
+  sides.push_back({slaves, masters, pairs.size() - 1, seats, 0});
+  seats += organs[slaves].end - organs[slaves].begin;
 }
 
 /// Numbers the particles of all organs once each, and cuts the members into chunks.
@@ -107,7 +108,7 @@ void Candidates<S, D, Ball>::build(const E& execute) {
   for (std::size_t s = 0; s < sides.size(); ++s) build_side(static_cast<std::uint32_t>(s), execute);
   require(outer_master_.size() < none, "hmps: ", outer_master_.size(),
           " candidates for contact are more than a 32-bit index can number; name fewer slaves and masters");
-  outer_rows_.push_back({0, 0, static_cast<Index>(outer_master_.size()), 0, 0, 0});
+  outer_rows_.push_back({0, 0, 0, static_cast<Index>(outer_master_.size()), 0, 0, 0});
   kept_master_.resize(outer_master_.size());
   list_rows_of_particles();
   built_ = true;
@@ -134,7 +135,7 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
       high = high.cwiseMax(place_[j]);
       widest = std::max(widest, reach_[j]);
     }
-  std::vector<Index> slaves, masters;
+  std::vector<Index> slaves, seat, masters;
   for (std::size_t m = a.begin; m < a.end; ++m) {
     const Index i = members_[m].number;
     if (!(members_[m].flags & is_slave)) continue;
@@ -142,7 +143,9 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
     low_a = low_a.cwiseMin(place_[i]);
     high_a = high_a.cwiseMax(place_[i]);
     const Point out = (low - place_[i]).cwiseMax(place_[i] - high);
-    if (out.maxCoeff() <= widest + skin_) slaves.push_back(i);
+    if (out.maxCoeff() > widest + skin_) continue;
+    slaves.push_back(i);
+    seat.push_back(static_cast<Index>(side.first_seat + m - a.begin));
   }
   // Organs far apart bear as much motion as lies between them; all slaves excluded: any.
   const S apart = low_a[0] <= high_a[0] ? (low - high_a).cwiseMax(low_a - high).maxCoeff() - widest : far;
@@ -176,7 +179,7 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
     for (const Near& near : list) ++count[near.slave + 1];
   const std::size_t first = outer_master_.size();
   for (std::size_t k = 0; k < slaves.size(); ++k) {
-    if (count[k + 1] > 0) outer_rows_.push_back({slaves[k], s, static_cast<Index>(first + count[k]), 0, 0, 0});
+    if (count[k + 1] > 0) outer_rows_.push_back({slaves[k], s, seat[k], static_cast<Index>(first + count[k]), 0, 0, 0});
     count[k + 1] += count[k];
   }
   outer_master_.resize(first + count.back());

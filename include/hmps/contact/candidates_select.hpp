@@ -258,10 +258,10 @@ void Candidates<S, D, Ball>::select() {
   master_of.clear();
   for (const OuterRow& row : outer_rows_) {
     if (row.rest > S(0) || row.kept <= row.begin) continue;
-    rows.push_back({row.slave, row.side, static_cast<Index>(master_of.size()), row.compression});
+    rows.push_back({row.slave, row.side, row.seat, static_cast<Index>(master_of.size()), row.compression});
     master_of.insert(master_of.end(), kept_master_.begin() + row.begin, kept_master_.begin() + row.kept);
   }
-  rows.push_back({0, 0, static_cast<Index>(master_of.size()), 0});
+  rows.push_back({0, 0, 0, static_cast<Index>(master_of.size()), 0});
   transpose();
 }
 

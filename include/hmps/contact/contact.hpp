@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -40,11 +41,14 @@ template <class S>
 struct ContactReport {
   std::size_t contacts = 0;  ///< Slaves with p > 0, counted once per organ that they touch.
   std::size_t sticking = 0;  ///< Of those, the ones whose friction is below its limit.
-  /// Slaves so deep in a wall that Z^-1 or the normal says little any more: clamped, or without force
-  /// where there is no normal. A wall of two layers holds a slave down to half a spacing below the
-  /// centres of its outermost layer and pushes it out on the other side beyond. The bumps of
-  /// `PaperMetaball` hide part of it there; a third layer of masters shows them all.
+  /// Slaves that their wall has lost: so deep that it no longer tells which way is out, or pushed to the other side
+  /// since the call before. See `MetaballContact::check`. In walls of three layers and more that takes a penetration
+  /// of about 1.75 spacings, in thinner ones the middle. A slave between two faces of one organ that both touch it
+  /// looks like that too.
   std::size_t deep = 0;
+  Index lost = 0;              ///< The deepest of them,
+  std::size_t lost_in = 0;     ///< the organ whose wall has lost it,
+  S lost_depth = 0;            ///< and its p in m, of an undeformed wall where that has no normal.
   S penetration = 0;           ///< The largest p in m.
   Index deepest = 0;           ///< Its slave.
   std::size_t candidates = 0;  ///< Slave-master pairs that were looked at.
@@ -55,8 +59,8 @@ struct ContactReport {
 };
 
 /// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
-/// reactions and friction. A functor that keeps only the lists of candidates; positions, velocities
-/// and deformation gradients stay with the caller.
+/// reactions and friction. A functor that keeps only the lists of candidates and the latest normals; positions,
+/// velocities and deformation gradients stay with the caller.
 ///
 /// Declare organs and the pairs that may touch, then in each step call
 /// `contact(x, v, F, dt, f)` with v = v* of \paper{2}; it ADDS the force density (N/m3) of \paper{43}
@@ -66,7 +70,8 @@ struct ContactReport {
 /// Forces of a contact and its reactions sum to zero; their torque does not vanish exactly, since a
 /// reaction acts at the master's centre and not at the touching point (\paper{41, 42}).
 /// Results are the same to the bit for any executor, and do not depend on when lists were built.
-/// Slaves whose normal is undefined (deep inside) get no force and are counted as deep.
+/// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
+/// error of that.
 template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
@@ -99,7 +104,10 @@ class MetaballContact {
   }
 
   /// Builds all lists anew at the next call. Not needed after steps in time.
-  void refresh() { lists_.refresh(); }
+  void refresh() {
+    lists_.refresh();
+    ++call_;
+  }
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
   void set_friction(double mu) {
@@ -121,6 +129,14 @@ class MetaballContact {
   ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, double dt,
                               const VectorView<T, D>& f, const E& execute = {}) {
     return evaluate(x, v, detail::Undeformed<S, D>{}, dt, f, execute);
+  }
+
+  /// Throws a `StateError` if `report`, that of the latest call, has a slave that its wall has lost: time (s, if
+  /// given), particle, organ, depth, and what to try. Call it after each evaluation, not now and then: what passes a
+  /// thin wall is in it for a few steps only, and seems to be all right beyond it. Costs one comparison. Nothing
+  /// passes unseen that moves less than a spacing per step against the wall, as all do that are slower than sound.
+  void check(const ContactReport<S>& report, double time = std::numeric_limits<double>::quiet_NaN()) const {
+    if (report.deep > 0) fail(report, time);
   }
 
   /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second, in
@@ -148,8 +164,14 @@ class MetaballContact {
     Point normal, slip;  // slip: v_im
     S penetration;
   };
+  struct Seat {                // what is remembered of a slave of one wall
+    Vector<float, D> outward;  // before the masters turned, when it was last less than half inside
+    std::uint32_t call = 0;    // in which it touched
+  };
   struct Batch {
-    std::size_t count, deep;
+    std::size_t count = 0, deep = 0;
+    Index deepest = 0;  // row
+    S depth = 0;
   };
   static constexpr std::size_t batch = 64;
 
@@ -157,7 +179,8 @@ class MetaballContact {
   ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute);
 
   template <class X, class V, class G>
-  bool touch(std::size_t r, const X& x, const V& v, const G& F, bool& deep);
+  bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
+  [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
   void resize();
   template <class X, class V, class G, class E>
@@ -178,6 +201,8 @@ class MetaballContact {
   std::vector<Index> batch_rows_, touching_;
   std::vector<Batch> batches_;
   std::vector<S> load_;  // per awake particle: N
+  std::vector<Seat> seats_;
+  std::uint32_t call_ = 1;
 };
 
 }  // namespace hmps

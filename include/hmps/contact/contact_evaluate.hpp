@@ -19,6 +19,7 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   batch_rows_.resize(row_count);
   touching_.reserve(row_count);
   batches_.resize((row_count + batch - 1) / batch);
+  seats_.resize(lists_.seats);
 }
 
 /// F_j^-1 once per particle, many at a time.
@@ -60,10 +61,10 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
   });
 }
 
-/// One slave against one wall: \paper{28} to \paper{38}. True if it touches.
+/// One slave against one wall: \paper{28} to \paper{38}. True if it touches. `depth` is set where the wall has lost it.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G>
-bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, bool& deep) {
+bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
   const auto& row = lists_.rows[r];
   const std::size_t begin = row.begin, end = lists_.rows[r + 1].begin;
   const Index slave = lists_.awake[row.slave].particle;
@@ -85,7 +86,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   const auto centres = lists_.normal_density.inverse(surface.density());
   bool touches = centres.reached;
   if (touches && !surface.normal(radius, state.normal)) {
-    deep = true;
+    depth = l0 - centres.value;
     touches = false;
   }
   if (touches) {
@@ -106,9 +107,19 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
     for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] = 0;
     return false;
   }
-  deep = centres.deep ||
-         (centres.value < S(0) && surface.gradient(over_radius_squared).norm() * surface.stretch(state.normal) <
-                                      lists_.normal_density.least_slope());
+  // Where the sum falls less than it should across a wall it no longer tells which way is out. In a wall of one layer
+  // that happens nearer than 0.6 spacings; further off it also falls little. What is fast may jump over that place, but
+  // then the wall has come to push to the other side since the slave was that far off.
+  const bool inside = centres.value < S(0.6) * l0;
+  const bool deep =
+      centres.deep || (inside && surface.gradient(over_radius_squared).norm() * surface.stretch(state.normal) <
+                                     lists_.normal_density.least_slope());
+  Seat& seat = seats_[row.seat];
+  const Vector<float, D> outward = surface.unturned(state.normal).template cast<float>().normalized();
+  const bool known = seat.call + 1 == call_;
+  if (deep || (known && seat.outward.dot(outward) < -0.5F)) depth = state.penetration;
+  if (!known || !inside) seat.outward = outward;
+  seat.call = call_;
   state.slip = surface.relative_velocity(v[slave].template cast<S>());
   const S over_density = S(1) / surface.density();
   for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] *= over_density;
@@ -146,6 +157,16 @@ void MetaballContact<S, D, Ball, Friction>::hand_out(const T& f, const E& execut
 }
 
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
+void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report, double time) const {
+  throw StateError(message("hmps: ", std::isnan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
+                           lists_.organs[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
+                           report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
+                           " spacings) deep in it or has passed through",
+                           report.deep > 1 ? message(", and ", report.deep - 1, " more") : "",
+                           "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
+}
+
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class T, class E>
 ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, const V& v, const G& F, double dt,
                                                                  const T& f, const E& execute) {
@@ -156,6 +177,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
           " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
   const S k = static_cast<S>(settings_.stiffness.at(settings_.density, dt));
   if (lists_.update(x, F, execute)) resize();
+  ++call_;
   const std::size_t row_count = lists_.rows.size() - 1;
   ContactReport<S> report;
   report.candidates = lists_.master_of.size();
@@ -167,16 +189,18 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
   gather(x, v, F, execute);
   const std::size_t count = (row_count + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
-    Batch result{0, 0};
+    Batch result;
     for (std::size_t r = q * batch; r < std::min(row_count, (q + 1) * batch); ++r) {
-      bool is_deep = false;
-      if (touch(r, x, v, F, is_deep))
+      S depth = 0;
+      if (touch(r, x, v, F, depth))
         batch_rows_[q * batch + result.count++] = static_cast<Index>(r);
       else {
         state_[r].penetration = 0;
         force_[r] = Quad{};
       }
-      result.deep += is_deep;
+      if (!(depth > S(0))) continue;
+      ++result.deep;
+      if (depth > result.depth) result.depth = depth, result.deepest = static_cast<Index>(r);
     }
     batches_[q] = result;
   });
@@ -184,6 +208,11 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
     const auto first = batch_rows_.begin() + static_cast<std::ptrdiff_t>(q * batch);
     touching_.insert(touching_.end(), first, first + static_cast<std::ptrdiff_t>(batches_[q].count));
     report.deep += batches_[q].deep;
+    if (!(batches_[q].depth > report.lost_depth)) continue;
+    const auto& row = lists_.rows[batches_[q].deepest];
+    report.lost_depth = batches_[q].depth;
+    report.lost = lists_.awake[row.slave].particle;
+    report.lost_in = lists_.sides[row.side].masters;
   }
   report.contacts = touching_.size();
   if (touching_.empty()) return report;
@@ -193,7 +222,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
   const bool needs_load = (Friction::needs_load && mu > 0) || damping > 0;
   if (needs_load) weigh(execute);
   execute((touching_.size() + batch - 1) / batch, [&](std::size_t q) {
-    Batch result{0, 0};
+    Batch result;
     for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
       const Index r = touching_[c];
       const RowState& state = state_[r];

@@ -82,10 +82,13 @@ class MasterSurface {
   }
 
   /// Mean stretch of the masters along the normal, \paper{32, 33}; the paper calls it strain.
-  [[nodiscard]] S stretch(const Vector<S, D>& n) const {
-    Vector<S, D> squeezed = Vector<S, D>::Zero();
-    for (int q = 0; q < D; ++q) squeezed += n[q] * detail::first<D, S>(inverse_[q]);
-    return density() / squeezed.norm();
+  [[nodiscard]] S stretch(const Vector<S, D>& n) const { return density() / unturned(n).norm(); }
+
+  /// sum c F_j^-1 n: the direction that the normal has for the masters as they were before they turned.
+  [[nodiscard]] Vector<S, D> unturned(const Vector<S, D>& n) const {
+    Vector<S, D> sum = Vector<S, D>::Zero();
+    for (int q = 0; q < D; ++q) sum += n[q] * detail::first<D, S>(inverse_[q]);
+    return sum;
   }
 
  private:

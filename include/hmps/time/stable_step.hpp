@@ -119,8 +119,10 @@ inline constexpr double fresh_noise = 0.1;
 /// that appears elsewhere has so few iterations to rise in that it may take some refreshes until it is seen. A search
 /// without `start`, now and then, is the certain way.
 ///
-/// It holds for the state given; stretch and new contacts change it. A contact that is not touched
-/// does not count, one that is just closing counts by half.
+/// It holds for the state given; stretch and new contacts change it. A contact that is not touched does not count, one
+/// whose penetration is less than the trial displacement counts by about half: set `perturbation` well below the
+/// penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of docs/stability.md the
+/// limit was that of the true, unsymmetric motion within half a per cent nevertheless.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not.
