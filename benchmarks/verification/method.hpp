@@ -17,11 +17,15 @@ namespace verification {
 struct Method {
   std::string name;
   bool shear_wave = false;  ///< E_hat = `shear_wave_modulus` instead of the paper's, Young's modulus
+  int held = 1;             ///< layers of held particles beyond a fixed face
 };
 
 inline const Method paper{.name = "E_hat = E"};
 inline const Method shear_wave{.name = "E_hat = 4/3 mu", .shear_wave = true};
+inline const Method two_layers{.name = "E_hat = 4/3 mu, two layers held", .shear_wave = true, .held = 2};
 inline const std::vector<Method> methods{paper, shear_wave};
+/// The same where a face is fixed.
+inline const std::vector<Method> clamped_methods{paper, shear_wave, two_layers};
 
 /// Young's modulus of a law at zero strain.
 template <class Law>
@@ -76,17 +80,18 @@ template <int D>
   return hmps::fill_lattice(box, box, l0, hmps::Vector<double, D>(hmps::Vector<double, D>::Constant(l0 / 2)));
 }
 
-/// Calls `use(force)` with the internal force of `body`, whose bonds are `bonds`, by `method`; the force keeps the
-/// deformation gradients in `body` up to date.
-template <int D, hmps::Bonds B, class Law, class Use>
-decltype(auto) with_force(const Method& method, Body<D>& body, const B& bonds, const Law& law, Use&& use) {
-  auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus_of(method, law)),
-                                    hmps::record(body.F()));
+/// Calls `use(force)` with the internal force of the particles that `bonds` hold together, by `method`; the force keeps
+/// their deformation gradients in `F`.
+template <hmps::Bonds B, class Law, class Use>
+decltype(auto) with_force(const Method& method, const hmps::MatrixView<double, B::dimension>& F, const B& bonds,
+                          const Law& law, Use&& use) {
+  auto force =
+      hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus_of(method, law)), hmps::record(F));
   return std::forward<Use>(use)(force);
 }
 
-/// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced forces
-/// are `tolerance` times `load` (N, in two dimensions N/m; 0: what the others carry).
+/// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced
+/// forces are `tolerance` times `load` (N, in two dimensions N/m; 0: what the others carry).
 template <int D, class Force, class Moves>
 hmps::Relaxation settle(Body<D>& body, Force&& force, Moves&& moves, double load, double tolerance) {
   constexpr double density = 1000;  // means nothing in statics
