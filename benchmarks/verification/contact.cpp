@@ -176,7 +176,7 @@ Problem sphere_on_block() {
                           .source = "published",
                           .uncertainty = 0.02 * indentation(2e-3)}},
           .across = "particles across the layer",
-          .sizes = {8, 10, 12, 16},
+          .sizes = {6, 8, 10, 12},
           .methods = methods,
           .run = indent,
           .remark = ""};

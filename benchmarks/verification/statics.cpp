@@ -63,7 +63,7 @@ Problem cantilever() {
           {{.name = "sag of the end", .unit = "mm", .answer = -23.4, .source = "finite elements", .uncertainty = 0.1},
            {.name = "shortening", .unit = "mm", .answer = -4.38, .source = "finite elements", .uncertainty = 0.03}},
       .across = "particles across the height",
-      .sizes = {3, 4, 5, 6, 7, 8, 9, 10, 11},
+      .sizes = {3, 4, 5, 6, 7, 8, 9},
       .methods = clamped_methods,
       .run = sag,
       .parity = true,
@@ -75,12 +75,14 @@ Problem bonded_shear() {
       .name = "bonded cube, shear",
       .title = "12. Bonded cube in shear",
       .text =
-          "A cube of the seed law, 24 mm, between bonded plates, one of which is moved along by 12 mm in ten parts.",
+          "A cube of the seed law, 24 mm, between bonded plates, one of which is moved along by 12 mm in ten parts. "
+          "The energy is the work of the finite elements' force on the way, to which it is nearly proportional; of the "
+          "particles, the strain energy and that of the stabiliser.",
       .quantities =
           {{.name = "force", .unit = "N", .answer = 1.40, .source = "finite elements", .uncertainty = 0.02},
-           {.name = "energy", .unit = "mJ", .answer = 16.22, .source = "finite elements", .uncertainty = 0.1}},
+           {.name = "energy", .unit = "mJ", .answer = 8.48, .source = "finite elements", .uncertainty = 0.12}},
       .across = "particles along an edge",
-      .sizes = {4, 5, 6, 7, 8, 9, 10, 11, 12, 13},
+      .sizes = {3, 4, 5, 6, 7, 8, 9},
       .methods = clamped_methods,
       .run = [](int n, const Method& method) { return bonded(n, method, Vector(0, 0.012, 0), true); },
       .parity = true,
@@ -96,7 +98,7 @@ Problem bonded_compression() {
           "counts is that it holds.",
       .quantities = {{.name = "force", .unit = "N", .answer = 7.96, .source = "finite elements", .uncertainty = 0.1}},
       .across = "particles along an edge",
-      .sizes = {4, 5, 6, 7, 8, 9, 10, 11, 12, 13},
+      .sizes = {3, 4, 5, 6, 7, 8, 9},
       .methods = clamped_methods,
       .run = [](int n, const Method& method) { return bonded(n, method, Vector(-0.3 * 0.024, 0, 0), false); },
       .parity = true,

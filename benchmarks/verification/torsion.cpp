@@ -67,7 +67,7 @@ Problem torsion() {
                       .answer = -pi / 2 * twist * twist * a4 * (tissue.c1 + 2 * tissue.c2),
                       .source = "exact"}},
       .across = "cells across the diameter",
-      .sizes = {5, 6, 7, 8, 9, 10, 12, 14},
+      .sizes = {5, 6, 7, 8, 9, 10, 12},
       .methods = methods,
       .run = wring,
       .remark = ""};
