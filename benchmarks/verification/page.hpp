@@ -44,16 +44,18 @@ namespace verification {
 
 /// The table of all problems.
 [[nodiscard]] inline std::string summary(const std::vector<Solved>& all) {
-  std::string text = "| Problem | Quantity | Answer | Source | " + paper.name + " | " + shear_wave.name + " |\n";
-  text += "|---|---|---|---|---|---|\n";
+  std::string text = "| Problem | Quantity | Answer | Source | " + paper.name + " | " + shear_wave.name + " | " +
+                     mean_dilatation.name + " |\n";
+  text += "|---|---|---|---|---|---|---|\n";
   for (const Solved& solved : all)
     for (std::size_t q = 0; q < solved.problem.quantities.size(); ++q) {
       const Quantity& quantity = solved.problem.quantities[q];
       std::string answer = stability::digits(quantity.answer, 5);
       if (quantity.uncertainty > 0) answer += " +- " + stability::digits(quantity.uncertainty, 2);
-      text += "| " + (q == 0 ? solved.problem.title : std::string()) + " | " + quantity.name + " | " + answer + ' ' +
-              (quantity.unit == "1" ? "" : quantity.unit) + " | " + quantity.source + " | " +
-              verdict(solved, paper.name, q) + " | " + verdict(solved, shear_wave.name, q) + " |\n";
+      if (quantity.unit != "1") answer += ' ' + quantity.unit;
+      text += "| " + (q == 0 ? solved.problem.title : std::string()) + " | " + quantity.name + " | " + answer + " | " +
+              quantity.source + " | " + verdict(solved, paper.name, q) + " | " + verdict(solved, shear_wave.name, q) +
+              " | " + verdict(solved, mean_dilatation.name, q) + " |\n";
     }
   return text;
 }
@@ -109,11 +111,13 @@ namespace verification {
 /// Draws the error of the first quantity of each problem that converges over the number of particles across.
 inline void draw(const std::vector<Solved>& all, const std::filesystem::path& path) {
   using examples::Anchor, examples::Colour;
-  constexpr double left = 52, top = 30, width = 210, height = 150, right = 14, below = 44, legend = 40;
+  constexpr double left = 52, top = 30, width = 210, height = 150, right = 14, below = 44, legend = 56;
   constexpr int columns = 4;
   constexpr auto ink = Colour::hex(0x222222), grid = Colour::hex(0xe6e6e6), unsure = Colour::hex(0xf2ecd9);
-  const std::vector<std::pair<Method, Colour>> lines{
-      {paper, Colour::hex(0xc0392b)}, {shear_wave, Colour::hex(0x1f5f99)}, {two_layers, Colour::hex(0x7fb3d5)}};
+  const std::vector<std::pair<Method, Colour>> lines{{paper, Colour::hex(0xc0392b)},
+                                                     {shear_wave, Colour::hex(0x1f5f99)},
+                                                     {two_layers, Colour::hex(0x9cc4e0)},
+                                                     {mean_dilatation, Colour::hex(0x2e8b57)}};
   std::vector<const Solved*> shown;
   for (const Solved& solved : all)
     if (solved.problem.quantities[0].bound == 0 && !solved.trials.empty()) shown.push_back(&solved);
@@ -126,7 +130,7 @@ inline void draw(const std::vector<Solved>& all, const std::filesystem::path& pa
     canvas.text(at + 30, 24, method.name, 12, ink);
     at += 60 + canvas.text_width(method.name, 12);
   }
-  canvas.text(at, 24, "dashed: even numbers of particles; shaded: within the answer's own error", 12, ink);
+  canvas.text(left, 44, "dashed: even numbers of particles; shaded: within the answer's own error", 12, ink);
 
   for (std::size_t p = 0; p < shown.size(); ++p) {
     const Solved& solved = *shown[p];
@@ -151,7 +155,7 @@ inline void draw(const std::vector<Solved>& all, const std::filesystem::path& pa
       canvas.rectangle(x0, clamped(quantity.resolution()), width, y0 + height - clamped(quantity.resolution()), unsure);
     for (const double t : up.ticks()) {
       canvas.line(x0, up(t), x0 + width, up(t), grid, 1);
-      canvas.text(x0 - 4, up(t) + 4, stability::digits(100 * t, 1) + " %", 10, ink, Anchor::right);
+      canvas.text(x0 - 4, up(t) + 4, stability::digits(100 * t, 2) + " %", 10, ink, Anchor::right);
     }
     for (const int size : problem.sizes) {
       const double x = across(1.0 / size);

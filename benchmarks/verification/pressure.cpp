@@ -151,9 +151,11 @@ Problem long_wall() {
            {.name = "along", .unit = "m", .answer = 0.4025, .source = "published", .uncertainty = 1e-4, .bound = 1e-3}},
       .across = "particles across",
       .sizes = {4, 5, 8, 12},
-      .methods = methods,
+      .methods = bulky_methods,
       .run = wall,
-      .remark = ""};
+      .remark =
+          "Across it is right to the digits of the answer; along, what is left is that of the digits and of mu / "
+          "kappa."};
 }
 
 Problem thick_cylinder() {
@@ -166,10 +168,10 @@ Problem thick_cylinder() {
           .quantities = {{.name = "inner face", .unit = "m", .answer = 3.2115, .source = "exact"},
                          {.name = "outer face", .unit = "m", .answer = 1.4291, .source = "exact"}},
           .across = "cells across the outer diameter",
-          .sizes = {20, 28, 40, 56, 80},
-          .methods = methods,
+          .sizes = {20, 28, 40, 56, 80, 112},
+          .methods = bulky_methods,
           .run = tube,
-          .remark = ""};
+          .remark = "The error is that of the faces: it goes up and down with how the lattice cuts the circles."};
 }
 
 Problem cooks_membrane() {
@@ -184,10 +186,10 @@ Problem cooks_membrane() {
       .quantities =
           {{.name = "rise of the corner", .unit = "mm", .answer = 32.24, .source = "published", .uncertainty = 0.04}},
       .across = "cells across the width",
-      .sizes = {12, 16, 24, 36, 48, 64},
+      .sizes = {12, 16, 24, 36, 48, 64, 96},
       .methods = clamped_methods,
       .run = cook,
-      .remark = ""};
+      .remark = "Of first order: the face is held half a spacing too far back, and the sloping faces have steps."};
 }
 
 }  // namespace verification

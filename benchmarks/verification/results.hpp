@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,14 +26,14 @@ struct Solved {
 /// One run. Where it breaks down the trial says why.
 [[nodiscard]] inline Trial solve(const Problem& problem, int size, const Method& method) {
   Trial trial{method.name, size, {}, 0};
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   try {
     trial.measured = problem.run(size, method);
   } catch (const hmps::Error& error) {
     trial.failure = error.what();
     trial.measured.values.assign(problem.quantities.size(), std::nan(""));
   }
-  trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  trial.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   hmps::require(trial.measured.values.size() == problem.quantities.size(), "verification: ", problem.name, " gave ",
                 trial.measured.values.size(), " values for ", problem.quantities.size(), " quantities");
   return trial;

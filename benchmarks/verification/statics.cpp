@@ -46,8 +46,11 @@ Measured bonded(int n, const Method& method, const Vector& shift, bool shear) {
     for (std::size_t i = 0; i < body.size(); ++i)
       if (body.reference[i][0] > side) carried -= body.load[i] * body.volume();
     if (!shear) return Measured{l0, body.size(), {-carried[0]}};
-    const double energy = hmps::strain_energy(body.F(), tissue, body.volume()) +
-                          hmps::artificial_energy(bonds, body.x(), body.F(), modulus_of(method, tissue), body.volume());
+    const auto share = hmps::split_bulk_modulus(tissue.bulk_modulus(), tissue.shear_modulus());
+    const auto law = method.mean_dilatation ? with_bulk_modulus(tissue, share.law) : tissue;
+    double energy = hmps::strain_energy(body.F(), law, body.volume()) +
+                    hmps::artificial_energy(bonds, body.x(), body.F(), modulus_of(method, tissue), body.volume());
+    if (method.mean_dilatation) energy += hmps::mean_dilatation_energy(bonds, body.F(), share.mean, body.volume());
     return Measured{l0, body.size(), {carried[1], 1e3 * energy}};
   });
 }
@@ -63,11 +66,14 @@ Problem cantilever() {
           {{.name = "sag of the end", .unit = "mm", .answer = -23.4, .source = "finite elements", .uncertainty = 0.1},
            {.name = "shortening", .unit = "mm", .answer = -4.38, .source = "finite elements", .uncertainty = 0.03}},
       .across = "particles across the height",
-      .sizes = {3, 4, 5, 6, 7, 8, 9},
-      .methods = clamped_methods,
+      .sizes = {3, 4, 5, 6, 7, 8, 9, 10, 11},
+      .methods = all_methods,
       .run = sag,
       .parity = true,
-      .remark = ""};
+      .remark =
+          "With E_hat = E the stabiliser makes the bar too stiff. With 4/3 mu it ends near the answer. At kappa / mu = "
+          "300 even numbers of particles lock a little; mean dilatation takes the difference between odd and even "
+          "away, and with it the stiffness that makes up for a clamp that holds the bar too far back."};
 }
 
 Problem bonded_shear() {
@@ -82,11 +88,14 @@ Problem bonded_shear() {
           {{.name = "force", .unit = "N", .answer = 1.40, .source = "finite elements", .uncertainty = 0.02},
            {.name = "energy", .unit = "mJ", .answer = 8.48, .source = "finite elements", .uncertainty = 0.12}},
       .across = "particles along an edge",
-      .sizes = {3, 4, 5, 6, 7, 8, 9},
-      .methods = clamped_methods,
+      .sizes = {3, 4, 5, 6, 7, 8, 9, 10, 11},
+      .methods = all_methods,
       .run = [](int n, const Method& method) { return bonded(n, method, Vector(0, 0.012, 0), true); },
       .parity = true,
-      .remark = ""};
+      .remark =
+          "Two held layers make the bonded faces too stiff: the displacement has a kink between them and the first "
+          "free layer, which costs the stabiliser energy. An energy of 16.22 mJ, which was given with the force, is "
+          "nearly twice the work of that force, and is not used."};
 }
 
 Problem bonded_compression() {
@@ -98,11 +107,13 @@ Problem bonded_compression() {
           "counts is that it holds.",
       .quantities = {{.name = "force", .unit = "N", .answer = 7.96, .source = "finite elements", .uncertainty = 0.1}},
       .across = "particles along an edge",
-      .sizes = {3, 4, 5, 6, 7, 8, 9},
-      .methods = clamped_methods,
+      .sizes = {3, 4, 5, 6, 7, 8, 9, 10, 11},
+      .methods = all_methods,
       .run = [](int n, const Method& method) { return bonded(n, method, Vector(-0.3 * 0.024, 0, 0), false); },
       .parity = true,
-      .remark = ""};
+      .remark =
+          "Odd and even numbers of particles differ, as in all that presses a stiff volume; mean dilatation brings "
+          "them together on the soft side, where the edges, which bulge most, are resolved least."};
 }
 
 }  // namespace verification
