@@ -58,7 +58,7 @@ TEST(Verification, ErrorsFallAsTheMeasuredOrderSays) {
                              {bonded_shear, paper, 4, 6, 0.5},
                              {torsion, paper, 5, 8, 2},
                              {cooks_membrane, shear_wave, 12, 24, 1},
-                             {contact_patch, paper, 5, 10, 1}}) {
+                             {sphere_on_block, paper, 6, 8, 1}}) {
     const Problem problem = one.problem();
     const Trial coarse = solve(problem, one.coarse, one.method), fine = solve(problem, one.fine, one.method);
     const double before = std::abs(problem.quantities[0].error(coarse.measured.values[0]));
