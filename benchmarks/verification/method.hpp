@@ -16,12 +16,21 @@ namespace verification {
 /// terms.
 struct Method {
   std::string name;
-  bool shear_wave = false;  ///< E_hat = `shear_wave_modulus` instead of the paper's, Young's modulus
+  bool shear_wave = false;       ///< E_hat = `shear_wave_modulus` instead of the paper's, Young's modulus
+  int held = 1;                  ///< layers of held particles beyond a fixed face
+  bool mean_dilatation = false;  ///< whether the bulk modulus is shared out by `split_bulk_modulus`
 };
 
 inline const Method paper{.name = "E_hat = E"};
 inline const Method shear_wave{.name = "E_hat = 4/3 mu", .shear_wave = true};
+inline const Method two_layers{.name = "E_hat = 4/3 mu, two layers held", .shear_wave = true, .held = 2};
+inline const Method mean_dilatation{
+    .name = "E_hat = 4/3 mu, mean dilatation", .shear_wave = true, .mean_dilatation = true};
+/// All of them that differ from each other in a problem, by whether a face is fixed and the volume is stiff.
 inline const std::vector<Method> methods{paper, shear_wave};
+inline const std::vector<Method> clamped_methods{paper, shear_wave, two_layers};
+inline const std::vector<Method> bulky_methods{paper, shear_wave, mean_dilatation};
+inline const std::vector<Method> all_methods{paper, shear_wave, two_layers, mean_dilatation};
 
 /// Young's modulus of a law at zero strain.
 template <class Law>
@@ -76,17 +85,38 @@ template <int D>
   return hmps::fill_lattice(box, box, l0, hmps::Vector<double, D>(hmps::Vector<double, D>::Constant(l0 / 2)));
 }
 
-/// Calls `use(force)` with the internal force of `body`, whose bonds are `bonds`, by `method`; the force keeps the
-/// deformation gradients in `body` up to date.
-template <int D, hmps::Bonds B, class Law, class Use>
-decltype(auto) with_force(const Method& method, Body<D>& body, const B& bonds, const Law& law, Use&& use) {
-  auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus_of(method, law)),
-                                    hmps::record(body.F()));
+/// The law with another bulk modulus, for laws whose volumetric energy is that of `hmps::mean_dilatation`, K (J - 1)^2
+/// / 2.
+[[nodiscard]] inline hmps::MooneyRivlin<> with_bulk_modulus(hmps::MooneyRivlin<> law, double bulk) {
+  law.d1 = bulk / 2;
+  return law;
+}
+[[nodiscard]] inline hmps::NeoHookean<> with_bulk_modulus(hmps::NeoHookean<> law, double bulk) {
+  law.kappa = bulk;
+  return law;
+}
+
+/// Calls `use(force)` with the internal force of the particles that `bonds` hold together, by `method`; the force keeps
+/// their deformation gradients in `F`.
+template <hmps::Bonds B, class Law, class Use>
+decltype(auto) with_force(const Method& method, const hmps::MatrixView<double, B::dimension>& F, const B& bonds,
+                          const Law& law, Use&& use) {
+  if constexpr (requires { with_bulk_modulus(law, 1.0); }) {
+    if (method.mean_dilatation) {
+      const auto share = hmps::split_bulk_modulus(law.bulk_modulus(), law.shear_modulus());
+      auto force = hmps::internal_force(bonds, hmps::elastic(with_bulk_modulus(law, share.law)),
+                                        hmps::artificial(modulus_of(method, law)), hmps::mean_dilatation(share.mean),
+                                        hmps::record(F));
+      return std::forward<Use>(use)(force);
+    }
+  }
+  auto force =
+      hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus_of(method, law)), hmps::record(F));
   return std::forward<Use>(use)(force);
 }
 
-/// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced forces
-/// are `tolerance` times `load` (N, in two dimensions N/m; 0: what the others carry).
+/// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced
+/// forces are `tolerance` times `load` (N, in two dimensions N/m; 0: what the others carry).
 template <int D, class Force, class Moves>
 hmps::Relaxation settle(Body<D>& body, Force&& force, Moves&& moves, double load, double tolerance) {
   constexpr double density = 1000;  // means nothing in statics

@@ -12,7 +12,8 @@
 /// Problems with known answers: what is asked, what is right, and what the method says at some spacings.
 namespace verification {
 
-/// What is compared. The error is relative to the right answer, or to `scale` where that is given.
+/// What is compared. The error is relative to the right answer, so that it is negative where too little comes out, or
+/// to `scale` where that is given.
 struct Quantity {
   std::string name;        ///< in a sentence: "the sag of the end"
   std::string unit;        ///< in which it is shown
@@ -22,7 +23,7 @@ struct Quantity {
   double scale = 0;        ///< what the error is a share of, in its unit, if not of the answer
   double bound = 0;        ///< what no error exceeds at any size, if the method should be right; else 0
 
-  [[nodiscard]] double error(double value) const { return (value - answer) / (scale > 0 ? scale : std::abs(answer)); }
+  [[nodiscard]] double error(double value) const { return (value - answer) / (scale > 0 ? scale : answer); }
   [[nodiscard]] double resolution() const { return uncertainty / (scale > 0 ? scale : std::abs(answer)); }
 };
 
@@ -52,7 +53,7 @@ struct Trial {
   std::string method;
   int size;
   Measured measured;
-  double seconds;
+  double seconds;  ///< of one processor
   std::string failure = "";
 };
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Rivlin's torsion of a cylinder, of which the lattice makes a prism with steps.
+#include <cmath>
+#include <numbers>
+
+#include "parts.hpp"
+#include "support.hpp"
+
+namespace verification {
+namespace {
+
+constexpr double radius = 0.01, twist = 50;  // m, rad/m: an angle of 0.5 at the surface
+constexpr int held = 2;
+
+Measured wring(int size, const Method& method) {
+  using Vector = hmps::Vector<double, 3>;
+  // Cells whose centre lies within size / 2 spacings of the axis, which is that of a cell or a corner.
+  std::vector<Vector> section;
+  for (int j = -size; j <= size; ++j)
+    for (int k = -size; k <= size; ++k) {
+      const Vector place(0, j + (size % 2 == 0 ? 0.5 : 0.0), k + (size % 2 == 0 ? 0.5 : 0.0));
+      if (place.norm() < 0.5 * size) section.push_back(place);
+    }
+  const double l0 = radius * std::sqrt(std::numbers::pi / static_cast<double>(section.size()));
+  const int length = 2 * size;  // free layers, about two diameters
+  std::vector<Vector> points;
+  for (int layer = -held; layer < length + held; ++layer)
+    for (const Vector& place : section) points.push_back(l0 * (place + Vector(layer + 0.5, 0, 0)));
+  Body<3> body(l0, points);
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const Vector& X = body.reference[i];
+    const double angle = twist * X[0], c = std::cos(angle), s = std::sin(angle);
+    body.position[i] = Vector(X[0], c * X[1] - s * X[2], s * X[1] + c * X[2]);
+  }
+  const auto moves = [&](std::size_t i) { return body.reference[i][0] > 0 && body.reference[i][0] < length * l0; };
+  const hmps::LatticeBonds<double, 3> bonds(body.X(), {.spacing = l0});
+  with_force(method, body.F(), bonds, tissue, [&](auto& force) { settle(body, force, moves, 0, 1e-5); });
+  // What has to act on the upper end.
+  double moment = 0, thrust = 0;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (body.reference[i][0] < length * l0) continue;
+    moment -= body.position[i].cross(body.load[i])[0] * body.volume();
+    thrust -= body.load[i][0] * body.volume();
+  }
+  return {l0, body.size(), {1e3 * moment, thrust}};
+}
+
+}  // namespace
+
+Problem torsion() {
+  const double a4 = std::pow(radius, 4), pi = std::numbers::pi;
+  return {
+      .name = "torsion",
+      .title = "14. Torsion of a cylinder",
+      .text =
+          "A cylinder of the seed law, 10 mm in radius and about 40 mm long, is twisted by 50 rad/m, its ends held at "
+          "their distance. Rivlin: M = pi (C1 + C2) psi a^4 and N = -(pi / 2) psi^2 a^4 (C1 + 2 C2), for an "
+          "incompressible material. On the lattice the cylinder is a prism with steps; the spacing is such that "
+          "its section has the area of the disc. Two layers beyond each end are held at their exact places, and "
+          "moment and thrust are what they carry.",
+      .quantities = {{.name = "moment",
+                      .unit = "N mm",
+                      .answer = 1e3 * pi * (tissue.c1 + tissue.c2) * twist * a4,
+                      .source = "exact"},
+                     {.name = "thrust",
+                      .unit = "N",
+                      .answer = -pi / 2 * twist * twist * a4 * (tissue.c1 + 2 * tissue.c2),
+                      .source = "exact"}},
+      .across = "cells across the diameter",
+      .sizes = {5, 6, 7, 8, 9, 10, 12, 14, 16},
+      .methods = bulky_methods,
+      .run = wring,
+      .remark =
+          "A prism with steps is no disc: its corners carry little shear, so that, once the stiffness of the "
+          "stabiliser has gone, its moment lies a little below that of the disc. The thrust, an effect of second "
+          "order, errs by more and goes up and down with the shape of the section; with E_hat = E it is nearer, since "
+          "the stiffness makes up for it."};
+}
+
+}  // namespace verification
