@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The limits of one core, with which the step is compared:
+//
+//   roofline/fma/KIND          multiply-adds in registers; the counter FLOP is operations per second
+//   roofline/triad/KIBIBYTES   a = b + s c over a working set of this size; bytes per second
+#include "roofline.hpp"
+
+#include "support.hpp"
+
+namespace {
+
+using namespace bench;
+
+template <class T, int chains>
+void fma(benchmark::State& run) {
+  constexpr std::size_t rounds = 20000;
+  T number = 0;
+  for (auto _ : run) {
+    number = multiply_add<T, chains>(rounds, number);
+    benchmark::DoNotOptimize(number);
+  }
+  run.counters["FLOP"] = benchmark::Counter(
+      static_cast<double>(run.iterations()) * multiply_add_flop<T, chains>(rounds), benchmark::Counter::kIsRate);
+}
+
+void triad(benchmark::State& run, std::size_t bytes) {
+  Triad triad(bytes);
+  for (auto _ : run) {
+    triad();
+    benchmark::ClobberMemory();
+  }
+  run.SetBytesProcessed(static_cast<std::int64_t>(static_cast<double>(run.iterations()) * triad.bytes()));
+}
+
+[[maybe_unused]] const bool added = [] {
+  benchmark::RegisterBenchmark("roofline/fma/float", fma<float, 12>);
+  benchmark::RegisterBenchmark("roofline/fma/double", fma<double, 12>);
+  for (const std::size_t kibibytes : {16, 256, 512, 4096, 16384, 65536, 262144})
+    benchmark::RegisterBenchmark(("roofline/triad/" + std::to_string(kibibytes)).c_str(),
+                                 [kibibytes](benchmark::State& run) { triad(run, kibibytes * 1024); });
+  return true;
+}();
+
+}  // namespace
