@@ -14,12 +14,15 @@
 /// measured. A multiplication, an addition, a division and a root are one operation each, a multiply-add two. They are
 /// those of the sums as docs/theory.md writes them, over the bonds that exist: what a kernel saves by symmetry and what
 /// it spends on empty lanes changes its time, not this count. Bytes are those of each array once for each pass over it,
-/// as if neighbours were always found in a cache; a write counts once.
+/// as if neighbours were always found in a cache; a write counts once. What is gathered are the bytes that bonds read
+/// of their neighbours, which come from a cache and not from memory.
 namespace bench {
 
 struct Cost {
-  double flop = 0, bytes = 0;
-  friend Cost operator+(const Cost& a, const Cost& b) { return {a.flop + b.flop, a.bytes + b.bytes}; }
+  double flop = 0, bytes = 0, gathered = 0;
+  friend Cost operator+(const Cost& a, const Cost& b) {
+    return {a.flop + b.flop, a.bytes + b.bytes, a.gathered + b.gathered};
+  }
 };
 
 /// A number that counts what is done to it.
@@ -65,7 +68,7 @@ class StepCost {
   [[nodiscard]] Cost stage_positions() const { return {6, 3 * s + 24 + 3 * k}; }
   [[nodiscard]] Cost stage_velocities() const { return {0, 3 * s + 3 * k}; }
   /// (11): per bond three differences, times w, times r0; per particle times A^-1, plus 1.
-  [[nodiscard]] Cost gradient() const { return {24 * bonds_ + 48, 3 * k + 6 * k + bond_bytes_}; }
+  [[nodiscard]] Cost gradient() const { return {24 * bonds_ + 48, 3 * k + 6 * k + bond_bytes_, 3 * k * bonds_}; }
   /// (13) in the first sweep: F S A^-1 is added to M.
   template <class Law>
   [[nodiscard]] Cost elastic(const Law& law) const {
@@ -75,9 +78,11 @@ class StepCost {
   [[nodiscard]] Cost artificial() const { return {1 + 18 + 1, k}; }
   /// Writes M and c; the second sweep reads them, with displacements and the stored sum of w r0: per bond c_i + c_j,
   /// its product with three differences, M r0, and all of it times w.
-  [[nodiscard]] Cost couple() const { return {3 + 31 * bonds_ + 18, 10 * k + 10 * k + 3 * k + 3 * k + bond_bytes_}; }
+  [[nodiscard]] Cost couple() const {
+    return {3 + 31 * bonds_ + 18, 10 * k + 10 * k + 3 * k + 3 * k + bond_bytes_, 13 * k * bonds_};
+  }
   /// (21) in the second sweep: three differences, times w; d.
-  [[nodiscard]] Cost viscous() const { return {9 * bonds_ + 6, 3 * k}; }
+  [[nodiscard]] Cost viscous() const { return {9 * bonds_ + 6, 3 * k, 3 * k * bonds_}; }
   [[nodiscard]] Cost force() const { return {0, 3 * s}; }
   /// Writes F in the scalar of the kernels.
   [[nodiscard]] Cost record() const { return {0, 9 * k}; }

@@ -10,8 +10,8 @@
 #include "cost.hpp"
 #include "hmps/core/lanes.hpp"
 
-/// The two limits of one core that the time of a kernel is compared with: multiply-adds and memory traffic, measured by
-/// code as portable as the library's.
+/// The limits of one core that the time of a kernel is compared with: multiply-adds, memory traffic, and what a bond
+/// reads of its neighbours, measured by code as portable as the library's.
 namespace bench {
 
 /// `rounds` times `chains` independent multiply-adds of 64 bytes each from `start` on; returns a number that depends on
@@ -34,6 +34,31 @@ template <class T, int chains>
 [[nodiscard]] double multiply_add_flop(std::size_t rounds) {
   return 2. * chains * hmps::Lanes<T>::width * static_cast<double>(rounds);
 }
+
+/// Sums of 64 bytes each from places that are not aligned, in an array that fits into the first-level cache: as bonds
+/// read the values of neighbours that follow each other.
+template <class T>
+class Gather {
+ public:
+  Gather() : values_(2048 / sizeof(T) + 2 * width, T(1)) {}
+  [[gnu::noinline]] T operator()() const {
+    typename hmps::detail::Raw<T>::Vector sum[4] = {}, x;
+    for (std::size_t i = 0; i < 2048 / sizeof(T); i += width)
+      for (std::size_t k = 0; k < 4; ++k) {
+        __builtin_memcpy(&x, values_.data() + i + k + 1, sizeof(x));
+        sum[k] += x;
+      }
+    T total = 0;
+    for (const auto& part : sum)
+      for (std::size_t l = 0; l < width; ++l) total += part[l];
+    return total;
+  }
+  [[nodiscard]] static double bytes() { return 4 * 2048; }
+
+ private:
+  static constexpr auto width = static_cast<std::size_t>(hmps::Lanes<T>::width);
+  std::vector<T> values_;
+};
 
 /// a = b + s c over arrays of doubles that take `bytes` together.
 class Triad {
@@ -93,7 +118,20 @@ template <class T>
   return measured[bytes] = best_rate(triad.bytes(), triad);
 }
 
-/// Items per second that neither limit of one core allows to be exceeded, for items of `cost` on numbers `T` in a
+/// Bytes per second that bonds can read of their neighbours; measured at the first call.
+template <class T>
+[[nodiscard]] double gather_rate() {
+  static const double rate = [] {
+    volatile T sink = 0;
+    const Gather<T> gather;
+    return best_rate(1000 * Gather<T>::bytes(), [&] {
+      for (int i = 0; i < 1000; ++i) sink = gather();
+    });
+  }();
+  return rate;
+}
+
+/// Items per second that neither multiply-adds nor memory allow to be exceeded, for items of `cost` on numbers `T` in a
 /// working set of `bytes`.
 template <class T>
 [[nodiscard]] double attainable(const Cost& cost, std::size_t bytes) {

@@ -8,8 +8,9 @@
 //                                       neighbours lie in rows
 //
 // Counters, beside items, bytes and FLOP per second (cost.hpp): `memory`, bytes that bonds and force keep per particle;
-// `roofline`, for one thread the share of what the two limits of a core (roofline.hpp) allow; `lanes`, the share of the
-// lanes that hold a bond where a row of bonds is computed.
+// `roofline`, for one thread the share of what multiply-adds and memory allow (roofline.hpp); `neighbours`, the share
+// of what reading the neighbours allows; `lanes`, the share of the lanes that hold a bond where a row of bonds is
+// computed.
 #include "hmps/force/internal_force.hpp"
 
 #include <cmath>
@@ -59,8 +60,9 @@ void step(benchmark::State& run, State<S> state, const Executor& execute) {
   run.counters["lanes"] = useful_lanes(bonds);
   if constexpr (std::is_same_v<Executor, hmps::Serial>) {
     const std::size_t working_set = bonds.bytes() + force.bytes() + 9 * sizeof(S) * state.size();
-    run.counters["roofline"] =
-        static_cast<double>(run.iterations()) * n / seconds / attainable<typename Bonds::Scalar>(cost, working_set);
+    const double rate = static_cast<double>(run.iterations()) * n / seconds;
+    run.counters["roofline"] = rate / attainable<typename Bonds::Scalar>(cost, working_set);
+    run.counters["neighbours"] = rate * cost.gathered / gather_rate<typename Bonds::Scalar>();
   }
 }
 
