@@ -52,7 +52,7 @@ constexpr const char* compiler = "g++ " __VERSION__;
   benchmark::RegisterBenchmark("roofline/fma/double", fma<double, 12>);
   benchmark::RegisterBenchmark("roofline/gather/float", gather<float>);
   benchmark::RegisterBenchmark("roofline/gather/double", gather<double>);
-  for (const std::size_t kibibytes : {16, 256, 512, 4096, 16384, 65536, 262144})
+  for (const std::size_t kibibytes : {16u, 256u, 512u, 4096u, 16384u, 65536u, 262144u})
     benchmark::RegisterBenchmark(("roofline/triad/" + std::to_string(kibibytes)).c_str(),
                                  [kibibytes](benchmark::State& run) { triad(run, kibibytes * 1024); });
   return true;
