@@ -15,8 +15,7 @@
 /// those of the sums as docs/theory.md writes them, over the bonds that exist: what a kernel saves by symmetry and what
 /// it spends on empty lanes changes its time, not this count. Bytes are those of each array once for each pass over it,
 /// as if neighbours were always found in a cache and no two particles shared a shape tensor; a write counts once. What is
-/// gathered are the bytes that bonds read
-/// of their neighbours, which come from a cache and not from memory.
+/// gathered are the bytes that bonds read of their neighbours, which come from a cache and not from memory.
 namespace bench {
 
 struct Cost {
