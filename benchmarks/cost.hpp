@@ -14,8 +14,8 @@
 /// measured. A multiplication, an addition, a division and a root are one operation each, a multiply-add two. They are
 /// those of the sums as docs/theory.md writes them, over the bonds that exist: what a kernel saves by symmetry and what
 /// it spends on empty lanes changes its time, not this count. Bytes are those of each array once for each pass over it,
-/// as if neighbours were always found in a cache and no two particles shared a shape tensor; a write counts once. What is
-/// gathered are the bytes that bonds read of their neighbours, which come from a cache and not from memory.
+/// as if neighbours were always found in a cache and no two particles shared a shape tensor; a write counts once. What
+/// is gathered are the bytes that bonds read of their neighbours, which come from a cache and not from memory.
 namespace bench {
 
 struct Cost {
