@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "cost.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/view.hpp"
+#ifdef _OPENMP
+#include "hmps/executors/openmp.hpp"
+#endif
 
-/// What the benchmarks share: a box of soft tissue and its state.
+/// What the benchmarks share: a box of soft tissue and its state, and how a benchmark is named and counted.
 namespace bench {
 
 inline constexpr double spacing = 1.2e-3, time_step = 1e-5, density = 1000, viscosity = 2e-3, young = 20e3, d1 = 1e6;
@@ -23,14 +31,15 @@ inline double noise(std::uint64_t n) {
   return static_cast<double>((n ^ (n >> 31)) >> 11) * 0x1.0p-52 - 1;
 }
 
-/// The extent in particles of the boxes that are measured: in the cache, the paper's size, beyond the cache.
+/// The extent in particles of the boxes that are measured.
 struct Box {
   std::size_t nx, ny, nz;
   [[nodiscard]] std::size_t size() const { return nx * ny * nz; }
 };
-inline constexpr std::array<Box, 3> boxes = {{{20, 20, 20}, {40, 40, 47}, {100, 100, 100}}};
+/// A box in the second-level cache, one of the paper's size, and two that are larger than most caches.
+inline constexpr Box in_cache{20, 20, 20}, paper_size{40, 40, 47}, large{60, 60, 83}, million{100, 100, 100};
 
-/// State of a box in arrays of each component, deformed a little and moving.
+/// State of a box in arrays of each component, at rest in its reference configuration but moving.
 template <class S>
 struct State {
   std::array<std::vector<S>, 3> x, v, f;
@@ -55,9 +64,52 @@ struct State {
   [[nodiscard]] auto forces() { return hmps::vectors(f[0], f[1], f[2]); }
 };
 
+/// The positions of a box moved off the lattice by up to a tenth of a spacing, in the order of the lattice or shuffled.
 template <class S>
-std::string name_of() {
+[[nodiscard]] State<S> cloud(const Box& box, bool shuffled) {
+  State<S> state(box);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < box.size(); ++i) state.x[c][i] += static_cast<S>(0.1 * spacing * noise(3 * i + c));
+  if (shuffled)
+    for (std::size_t i = box.size() - 1; i > 0; --i) {
+      const auto j = static_cast<std::size_t>((noise(i) + 1) / 2 * static_cast<double>(i));
+      for (auto& component : state.x) std::swap(component[i], component[j]);
+    }
+  return state;
+}
+
+template <class S>
+[[nodiscard]] std::string name_of() {
   return std::is_same_v<S, float> ? "float" : "double";
+}
+/// The name of kernels in `K` on a state in `S`.
+template <class K, class S>
+[[nodiscard]] std::string kind() {
+  return std::is_same_v<K, S> ? name_of<K>() : "mixed";
+}
+
+/// Says that each iteration did `items` items, at `cost` each, of which what is zero was not counted.
+inline void count(benchmark::State& run, std::size_t items, const Cost& cost) {
+  const double done = static_cast<double>(run.iterations()) * static_cast<double>(items);
+  run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(items));
+  if (cost.bytes > 0) run.SetBytesProcessed(static_cast<std::int64_t>(done * cost.bytes));
+  if (cost.flop > 0) run.counters["FLOP"] = benchmark::Counter(done * cost.flop, benchmark::Counter::kIsRate);
+}
+
+/// Registers `name/THREADS`, that is `measure(run, executor)`, for one thread, by the time of the processor, and for as
+/// many as there are, by the clock.
+template <class Measure>
+void add_threads(const std::string& name, const Measure& measure, benchmark::TimeUnit unit = benchmark::kMillisecond) {
+  benchmark::RegisterBenchmark((name + "/1").c_str(), [measure](benchmark::State& run) {
+    measure(run, hmps::Serial{});
+  })->Unit(unit);
+#ifdef _OPENMP
+  for (int threads = 2; threads <= omp_get_num_procs(); threads *= 2)
+    benchmark::RegisterBenchmark((name + "/" + std::to_string(threads)).c_str(),
+                                 [measure, threads](benchmark::State& run) { measure(run, hmps::OpenMP{threads}); })
+        ->UseRealTime()
+        ->Unit(unit);
+#endif
 }
 
 }  // namespace bench

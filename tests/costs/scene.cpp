@@ -8,6 +8,7 @@
 #include <hmps/hmps.hpp>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "body.hpp"
@@ -15,6 +16,12 @@
 namespace {
 
 using namespace costs;
+
+#ifdef __clang__
+constexpr const char* compiler = "clang++ " __clang_version__;
+#else
+constexpr const char* compiler = "g++ " __VERSION__;
+#endif
 
 /// A block under the internal force of what `make(bonds, body)` returns.
 template <int D, class K = double, class Make>
@@ -103,6 +110,18 @@ void region(int steps, bool restricted) {
   std::printf("%zu %zu\n", body.size(), heap() - before);
 }
 
+/// `steps` times all neighbours of the particles, which lie a little off the lattice; `find(x)` returns how many.
+template <class Find>
+void search(int steps, Find&& find) {
+  Body<3> body;
+  for (std::size_t i = 0; i < body.size(); ++i)
+    for (int c = 0; c < 3; ++c) body.position[i][c] += 1e-4 * std::sin(static_cast<double>(7 * i) + c);
+  std::size_t found = 0;
+  for (int step = 0; step < steps; ++step) found += find(hmps::vectors(std::as_const(body.position)));
+  std::fprintf(stderr, "%zu neighbours\n", found);
+  std::printf("%zu 0\n", body.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -135,6 +154,22 @@ int main(int argc, char** argv) {
       {"halves", [](int steps) { halves(steps, 0, false); }},
       {"halves_far", [](int steps) { halves(steps, 20, true); }},
       {"halves_touching", [](int steps) { halves(steps, -0.05, true); }},
+      {"search_tree",
+       [](int steps) {
+         search(steps, [](const auto& x) { return hmps::find_neighbours(x, 1.75 * spacing).neighbour.size(); });
+       }},
+      {"search_grid",
+       [](int steps) {
+         search(steps, [](const auto& x) {
+           hmps::Grid<double, 3> grid;
+           grid.build(x.size(), 1.75 * spacing, [&](std::size_t k) { return x[k]; });
+           std::size_t found = 0;
+           for (std::size_t i = 0; i < x.size(); ++i)
+             grid.visit(x[i], 1.75 * spacing, [&](hmps::Index k, double) { found += k != i ? 1 : 0; });
+           return found;
+         });
+       }},
+      {"compiler", [](int) { std::puts(compiler); }},
       {"region", [](int steps) { region(steps, true); }},
       {"region_unrestricted", [](int steps) { region(steps, false); }},
   };

@@ -12,18 +12,12 @@
 // The counters say how many slaves touch and how often the lists were built anew.
 #include "hmps/contact/contact.hpp"
 
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "hmps/core/executor.hpp"
 #include "support.hpp"
-#ifdef _OPENMP
-#include "hmps/executors/openmp.hpp"
-#endif
 
 namespace {
 
@@ -92,17 +86,9 @@ void contact(benchmark::State& run, Gap&& gap, const Executor& execute) {
 
 template <class S, class Gap>
 void add(const std::string& name, const Gap& gap) {
-  const std::string full = "contact/" + name + "/" + bench::name_of<S>() + "/";
-  benchmark::RegisterBenchmark((full + "1").c_str(), [gap](benchmark::State& run) {
-    contact<S>(run, gap, hmps::Serial{});
-  })->Unit(benchmark::kMicrosecond);
-#ifdef _OPENMP
-  for (int threads = 2; threads <= omp_get_num_procs(); threads *= 2)
-    benchmark::RegisterBenchmark((full + std::to_string(threads)).c_str(),
-                                 [gap, threads](benchmark::State& run) { contact<S>(run, gap, hmps::OpenMP{threads}); })
-        ->UseRealTime()
-        ->Unit(benchmark::kMicrosecond);
-#endif
+  bench::add_threads(
+      "contact/" + name + "/" + bench::name_of<S>(),
+      [gap](benchmark::State& run, const auto& execute) { contact<S>(run, gap, execute); }, benchmark::kMicrosecond);
 }
 
 template <class S>

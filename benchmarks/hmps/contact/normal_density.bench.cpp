@@ -2,8 +2,6 @@
 // Z^-1, (29), of random sums from out of reach to deep inside: z_inverse/BALL/KIND. Items are slaves.
 #include "hmps/contact/normal_density.hpp"
 
-#include <benchmark/benchmark.h>
-
 #include <string>
 #include <vector>
 
@@ -19,7 +17,7 @@ void inverse(benchmark::State& run) {
   for (std::size_t n = 0; n < density.size(); ++n) density[n] = top * static_cast<S>(0.55 + 0.6 * bench::noise(n));
   std::size_t n = 0;
   for (auto _ : run) benchmark::DoNotOptimize(Z.inverse(density[n++ % density.size()]));
-  run.SetItemsProcessed(static_cast<std::int64_t>(run.iterations()));
+  bench::count(run, 1, {0, 2 * sizeof(S)});
 }
 
 [[maybe_unused]] const bool added = [] {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The stress of each law at random deformation gradients, as the sweeps evaluate it: law/NAME/KIND.
+// The stress of each law at random deformation gradients, as the sweeps evaluate it: law/NAME/KIND. Items are
+// particles.
 #include "hmps/elastic/law.hpp"
 
-#include <benchmark/benchmark.h>
+#include <string>
+#include <vector>
 
 #include "hmps/core/lanes.hpp"
 #include "hmps/elastic/continued.hpp"
@@ -29,7 +31,7 @@ void stress(benchmark::State& run, const Law& law) {
     const hmps::Matrix<T, 3> P = hmps::first_piola_kirchhoff(law, F[n++ % F.size()]);
     benchmark::DoNotOptimize(P);
   }
-  run.SetItemsProcessed(static_cast<std::int64_t>(run.iterations()) * T::width);
+  bench::count(run, T::width, {bench::stress_flop(law), 18 * sizeof(K)});
 }
 
 template <class Law>

@@ -54,6 +54,13 @@ struct alignas(64) LaneMask {
 
 namespace detail {
 
+/// Asks for the cache line of `address`; never fails.
+HMPS_INLINE void prefetch([[maybe_unused]] const void* address) {
+#if defined(__GNUC__) || defined(__clang__)
+  __builtin_prefetch(address);
+#endif
+}
+
 #if defined(__GNUC__) || defined(__clang__)
 template <class T>
 struct Raw {

@@ -104,10 +104,12 @@ template <Bonds B, class K = typename B::Scalar, int D = B::dimension>
   for (int k = 0; k < D * D; ++k) sum(k % D, k / D) = T(0);
   bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
     const T w = bond.weight();
-    for (int row = 0; row < D; ++row) {
-      const T relative = w * (bond.gather(displacement[static_cast<std::size_t>(row)]) - u[row]);
-      for (int col = 0; col < D; ++col) sum(row, col) += relative * bond.offset(col);
-    }
+    Vector<T, D> relative;
+    for (int row = 0; row < D; ++row)
+      relative[row] = w * (bond.gather(displacement[static_cast<std::size_t>(row)]) - u[row]);
+    for (int col = 0; col < D; ++col)
+      if (bond.along(col))
+        for (int row = 0; row < D; ++row) sum(row, col) += relative[row] * bond.offset(col);
   });
   Matrix<T, D> F = product(sum, shape_inverse);
   for (int d = 0; d < D; ++d) F(d, d) += T(1);

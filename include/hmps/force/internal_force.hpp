@@ -180,6 +180,7 @@ class InternalForce {
   /// What the particles of `block` carry to their bonds.
   void couple(std::size_t block) {
     const std::size_t slot = block * B::width;
+    displacement_.prefetch(bonds_->last_slot(block) + ahead);
     const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block);
     const Matrix<T, D> F = [&] {
       if constexpr (dilates)
@@ -208,6 +209,10 @@ class InternalForce {
   template <class F>
   void sum(std::size_t block, const VectorView<F, D>& f) const {
     const std::size_t slot = block * B::width;
+    const std::size_t last = bonds_->last_slot(block);
+    displacement_.prefetch(last + ahead);
+    velocity_.prefetch(last + ahead);
+    coupling_.prefetch(last + ahead);
     Vector<T, D> force, u, v, drag;
     T c(0);
     for (int d = 0; d < D; ++d) force[d] = drag[d] = T(0);
@@ -226,13 +231,16 @@ class InternalForce {
     bonds_->for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
       const T w = bond.weight();
       if constexpr (couples) {
+        // Apart from the sum of all bonds, so that one bond need not wait for the one before.
+        Vector<T, D> pull;
         const T stretch = c + bond.gather(coupling_[D * D]);
-        for (int row = 0; row < D; ++row) {
-          T pull = stretch * (bond.gather(displacement_[static_cast<std::size_t>(row)]) - u[row]);
-          for (int col = 0; col < D; ++col)
-            pull += bond.gather(coupling_[static_cast<std::size_t>(row + D * col)]) * bond.offset(col);
-          force[row] += w * pull;
-        }
+        for (int row = 0; row < D; ++row)
+          pull[row] = stretch * (bond.gather(displacement_[static_cast<std::size_t>(row)]) - u[row]);
+        for (int col = 0; col < D; ++col)
+          if (bond.along(col))
+            for (int row = 0; row < D; ++row)
+              pull[row] += bond.gather(coupling_[static_cast<std::size_t>(row + D * col)]) * bond.offset(col);
+        for (int row = 0; row < D; ++row) force[row] += w * pull[row];
       }
       if constexpr (damps)
         for (int d = 0; d < D; ++d) drag[d] += w * (bond.gather(velocity_[static_cast<std::size_t>(d)]) - v[d]);
@@ -241,6 +249,9 @@ class InternalForce {
       for (int d = 0; d < D; ++d) force[d] += damping_ * drag[d];
     detail::deliver(*bonds_, block, f, [&](int d) { return force[d]; });
   }
+
+  /// How far ahead of what a block needs memory is asked for: some hundred nanoseconds of work.
+  static constexpr std::size_t ahead = 4 * B::width;
 
   const B* bonds_;
   std::tuple<Terms...> terms_;

@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "hmps/core/lanes.hpp"
@@ -29,6 +32,13 @@ class SlotArrays {
     return values_.data() + component * pitch_ + margin;
   }
   [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(K); }
+
+  /// Asks for all components of the lanes from `slot` on, which are going to be read soon; nothing happens beyond the
+  /// last slot.
+  HMPS_INLINE void prefetch(std::size_t slot) const {
+    if (slot + 2 * margin >= pitch_) return;
+    for (std::size_t k = margin + slot; k < values_.size(); k += pitch_) detail::prefetch(values_.data() + k);
+  }
 
  private:
   static constexpr std::size_t margin = static_cast<std::size_t>(Lanes<K>::width);
@@ -75,11 +85,13 @@ class Blocks {
   [[nodiscard]] Matrix<K, D> shape_inverse(std::size_t particle) const {
     Matrix<K, D> inverse;
     for (int r = 0; r < D; ++r)
-      for (int c = 0; c < D; ++c) inverse(r, c) = shape_[symmetric(r, c)][slot_of_[particle]];
+      for (int c = 0; c < D; ++c) inverse(r, c) = shape_[symmetric(r, c)][shape_slot(slot_of_[particle])];
     return inverse;
   }
   /// tr A = sum |r0|^2 w of `particle`, in m2, the sum in \paper{20}.
-  [[nodiscard]] K shape_trace(std::size_t particle) const { return K(1) / inverse_trace_[0][slot_of_[particle]]; }
+  [[nodiscard]] K shape_trace(std::size_t particle) const {
+    return K(1) / shape_[inverse_trace][shape_slot(slot_of_[particle])];
+  }
 
   /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}): of the
   /// full lattice in `LatticeBonds`, of the particle with the largest sum of weights in `BondList`.
@@ -88,9 +100,10 @@ class Blocks {
 
   /// Bytes that the reference configuration takes, without the bonds themselves.
   [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = particle_of_.size() * sizeof(Index) + slot_of_.size() * sizeof(Index) + consecutive_.size();
+    std::size_t sum =
+        (particle_of_.size() + slot_of_.size() + shape_block_.size()) * sizeof(Index) + consecutive_.size();
     for (const auto& component : reference_) sum += component.size() * sizeof(double);
-    return sum + shape_.bytes() + asymmetry_.bytes() + inverse_trace_.bytes();
+    return sum + shape_.bytes();
   }
 
   // What follows is read by the sweeps, lane by lane.
@@ -99,19 +112,21 @@ class Blocks {
     Matrix<Lanes<K>, D> inverse;
     for (int c = 0; c < D; ++c)
       for (int r = 0; r <= c; ++r) {
-        inverse(r, c) = load(shape_[symmetric(r, c)] + block * width);
+        inverse(r, c) = shape_lanes(symmetric(r, c), block);
         inverse(c, r) = inverse(r, c);
       }
     return inverse;
   }
   [[nodiscard]] HMPS_INLINE Lanes<K> inverse_trace_lanes(std::size_t block) const {
-    return load(inverse_trace_[0] + block * width);
+    return shape_lanes(inverse_trace, block);
   }
   [[nodiscard]] HMPS_INLINE Lanes<K> asymmetry_lanes(std::size_t block, int c) const {
-    return load(asymmetry_[static_cast<std::size_t>(c)] + block * width);
+    return shape_lanes(asymmetry + static_cast<std::size_t>(c), block);
   }
   /// Whether the lanes of `block` hold particles that follow each other in the user's arrays.
   [[nodiscard]] HMPS_INLINE bool consecutive(std::size_t block) const { return consecutive_[block] != 0; }
+  /// Where the sweeps read farthest ahead for `block`, if the order of the slots tells; its own slots otherwise.
+  [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const { return block * width; }
   [[nodiscard]] HMPS_INLINE const double* reference_slots(int c) const {
     return reference_[static_cast<std::size_t>(c)].data();
   }
@@ -135,9 +150,9 @@ class Blocks {
         run = run && particle_of_[b * width + l] != none && particle_of_[b * width + l] == particle_of_[b * width] + l;
       consecutive_[b] = run ? 1 : 0;
     }
-    shape_ = SlotArrays<K>(D * (D + 1) / 2, slot_count());
-    asymmetry_ = SlotArrays<K>(D, slot_count());
-    inverse_trace_ = SlotArrays<K>(1, slot_count());
+    shape_ = SlotArrays<K>(shape_components, slot_count());
+    shape_block_.resize(block_count());
+    std::iota(shape_block_.begin(), shape_block_.end(), Index{0});
   }
 
   /// Keeps what the sweeps need of the neighbourhood of `particle`. Throws `InputError` if it does
@@ -146,10 +161,33 @@ class Blocks {
     const std::size_t slot = slot_of_[particle];
     const Matrix<double, D> inverse = shape.inverse(particle);
     for (int c = 0; c < D; ++c) {
-      asymmetry_[static_cast<std::size_t>(c)][slot] = static_cast<K>(shape.asymmetry[c]);
+      shape_[asymmetry + static_cast<std::size_t>(c)][slot] = static_cast<K>(shape.asymmetry[c]);
       for (int r = 0; r <= c; ++r) shape_[symmetric(r, c)][slot] = static_cast<K>(inverse(r, c));
     }
-    inverse_trace_[0][slot] = static_cast<K>(1.0 / shape.A.trace());
+    shape_[inverse_trace][slot] = static_cast<K>(1.0 / shape.A.trace());
+  }
+  /// To be called when all shapes are kept: blocks whose particles have all the same neighbourhood, as inside a lattice
+  /// and along its faces, share one copy of it from then on.
+  void share_shapes() {
+    std::map<std::array<K, shape_components>, Index> shared;
+    std::vector<std::size_t> kept;  // blocks
+    for (std::size_t b = 0; b < block_count(); ++b) {
+      std::array<K, shape_components> first;
+      bool uniform = true;
+      for (std::size_t c = 0; c < shape_components; ++c) {
+        const K* lanes = shape_[c] + b * width;
+        first[c] = lanes[0];
+        uniform = uniform && std::all_of(lanes, lanes + width, [&](K value) { return value == lanes[0]; });
+      }
+      const auto next = static_cast<Index>(kept.size());
+      shape_block_[b] = uniform ? shared.emplace(first, next).first->second : next;
+      if (shape_block_[b] == next) kept.push_back(b);
+    }
+    SlotArrays<K> shapes(shape_components, kept.size() * width);
+    for (std::size_t c = 0; c < shape_components; ++c)
+      for (std::size_t k = 0; k < kept.size(); ++k)
+        std::copy_n(shape_[c] + kept[k] * width, width, shapes[c] + k * width);
+    shape_ = std::move(shapes);
   }
   void keep_standard(const ShapeTensor<D>& shape) {
     standard_density_ = shape.weight;
@@ -157,6 +195,16 @@ class Blocks {
   }
 
  private:
+  // Components of shape_: those of A^-1 on and above the diagonal, then these.
+  static constexpr std::size_t asymmetry = D * (D + 1) / 2, inverse_trace = asymmetry + D,
+                               shape_components = inverse_trace + 1;
+
+  [[nodiscard]] std::size_t shape_slot(std::size_t slot) const {
+    return shape_block_[slot / width] * width + slot % width;
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> shape_lanes(std::size_t component, std::size_t block) const {
+    return load(shape_[component] + shape_block_[block] * width);
+  }
   [[nodiscard]] static constexpr std::size_t symmetric(int r, int c) {
     return static_cast<std::size_t>(r < c ? r + c * (c + 1) / 2 : c + r * (r + 1) / 2);
   }
@@ -165,7 +213,8 @@ class Blocks {
   std::vector<Index> slot_of_;
   std::vector<std::uint8_t> consecutive_;
   std::array<std::vector<double>, D> reference_;
-  SlotArrays<K> shape_, asymmetry_, inverse_trace_;
+  SlotArrays<K> shape_;
+  std::vector<Index> shape_block_;  ///< Where in shape_ the lanes of each block are.
   double standard_density_ = 0;
   double standard_lambda_ = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -134,13 +135,20 @@ class LatticeBonds : public Blocks<K, D> {
     return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::size_t);
   }
 
+  /// The slot from which on the last of the rows of `block` reads.
+  [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
+    return static_cast<std::size_t>(std::max(runs_[first_run_[block + 1] - 1].first, 0));
+  }
+
   /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot
   /// `first + l`.
   struct Row {
     const K* r0;
     Lanes<K> w;
     std::ptrdiff_t first;
+    std::uint32_t axes;
 
+    [[nodiscard]] HMPS_INLINE bool along(int c) const { return (axes >> c & 1u) != 0; }
     [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const { return load(values + first); }
     [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
     [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
@@ -152,7 +160,7 @@ class LatticeBonds : public Blocks<K, D> {
     for (std::size_t row = first_run_[block]; row < first_run_[block + 1]; ++row) {
       const Run& run = runs_[row];
       const Offset& offset = offset_[run.offset];
-      visit(Row{offset.r0, spread(run.lanes, offset.w), run.first});
+      visit(Row{offset.r0, spread(run.lanes, offset.w), run.first, offset.axes});
     }
   }
 
@@ -160,6 +168,7 @@ class LatticeBonds : public Blocks<K, D> {
   struct Offset {
     K r0[D];
     K w;
+    std::uint32_t axes;  ///< Bit c is set if component c of r0 is not zero.
   };
   struct Run {
     std::int32_t first;
@@ -191,7 +200,10 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
-    for (const auto& cell : cells_within(settings.radius_ratio)) {
+    auto near = cells_within(settings.radius_ratio);
+    // In the order of the slots, so that the sweeps go through memory in one direction.
+    std::sort(near.begin(), near.end(), [&](const auto& a, const auto& b) { return cells.key(a) < cells.key(b); });
+    for (const auto& cell : near) {
       Vector<double, D> r0;
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
       const double radius = settings.spacing * settings.radius_ratio;
@@ -199,7 +211,11 @@ class LatticeBonds : public Blocks<K, D> {
       if (!(w > 0)) continue;
       inside.add(r0, w);
       Offset& offset = offset_.emplace_back();
-      for (int c = 0; c < D; ++c) offset.r0[c] = static_cast<K>(r0[c]);
+      offset.axes = 0;
+      for (int c = 0; c < D; ++c) {
+        offset.r0[c] = static_cast<K>(r0[c]);
+        if (cell[static_cast<std::size_t>(c)] != 0) offset.axes |= 1u << c;
+      }
       offset.w = static_cast<K>(w);
       const std::int64_t step = cells.key(cell);
       // Slots are sorted by key, so that the neighbours at one offset are met in order too.
@@ -227,6 +243,7 @@ class LatticeBonds : public Blocks<K, D> {
     for (const Placed& p : placed) runs_[next[p.block]++] = p.run;
 
     for (std::size_t i = 0; i < n; ++i) this->keep_shape(i, shapes[i]);
+    this->share_shapes();
     this->keep_standard(inside);
   }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,47 @@ TYPED_TEST(Slots, KeepTheReferenceConfigurationInTheOrderOfTheSweep) {
   EXPECT_FALSE(blocks.consecutive(1));
   EXPECT_FALSE(blocks.consecutive(2)) << "the last block is not full";
   EXPECT_GT(blocks.bytes(), n * 2 * sizeof(double));
+}
+
+/// Blocks of which the particles for which `other(i)` holds have another neighbourhood.
+template <class K>
+struct Shared : hmps::Blocks<K, 2> {
+  template <class Other>
+  Shared(const std::vector<std::array<float, 2>>& points, const std::vector<hmps::Index>& order, Other&& other)
+      : hmps::Blocks<K, 2>(hmps::vectors(points), order) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      hmps::ShapeTensor<2> shape;
+      shape.add({1, 0}, 0.5);
+      shape.add({0.5, 2}, other(i) ? 0.5 : 0.25);
+      this->keep_shape(i, shape);
+    }
+  }
+  using hmps::Blocks<K, 2>::share_shapes;
+};
+
+TYPED_TEST(Slots, ShareTheShapesOfBlocksThatAreAlike) {
+  using K = TypeParam;
+  constexpr std::size_t width = hmps::Blocks<K, 2>::width;
+  const std::size_t n = 6 * width - 1;
+  const std::vector<std::array<float, 2>> points(n);
+  std::vector<hmps::Index> order(n);
+  std::iota(order.begin(), order.end(), hmps::Index{0});
+  // Blocks 0 and 2 are alike, 3 and 4 too; block 1 is mixed and the last not full.
+  const auto other = [&](std::size_t i) { return i == width + 3 || (i >= 3 * width && i < 5 * width); };
+  const Shared<K> apart(points, order, other);
+  Shared<K> shared = apart;
+  shared.share_shapes();
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_EQ(shared.shape_inverse(i), apart.shape_inverse(i));
+    EXPECT_EQ(shared.shape_trace(i), apart.shape_trace(i));
+  }
+  for (std::size_t b = 0; b < 6; ++b)
+    for (std::size_t l = 0; l < width; ++l) {
+      EXPECT_EQ(shared.shape_inverse_lanes(b)(0, 1).lane[l], apart.shape_inverse_lanes(b)(0, 1).lane[l]);
+      EXPECT_EQ(shared.asymmetry_lanes(b, 1).lane[l], apart.asymmetry_lanes(b, 1).lane[l]);
+      EXPECT_EQ(shared.inverse_trace_lanes(b).lane[l], apart.inverse_trace_lanes(b).lane[l]);
+    }
+  EXPECT_EQ(apart.bytes() - shared.bytes(), 2 * 6 * width * sizeof(K)) << "two blocks of 3 + 2 + 1 numbers";
 }
 
 // A = 0.5 (1, 0)(1, 0)^T + 0.25 (0.5, 2)(0.5, 2)^T, by hand.

@@ -76,7 +76,10 @@ void sweep_meets_every_bond_once(const B& bonds) {
         EXPECT_GE(w.lane[l], K(0));
         if (!(w.lane[l] > K(0))) continue;
         hmps::Vector<K, D> r0;
-        for (int c = 0; c < D; ++c) r0[c] = hmps::Lanes<K>(row.offset(c)).lane[l];
+        for (int c = 0; c < D; ++c) {
+          r0[c] = hmps::Lanes<K>(row.offset(c)).lane[l];
+          EXPECT_TRUE(row.along(c) || r0[c] == K(0));
+        }
         const std::size_t j = bonds.particle(static_cast<std::size_t>(place.lane[l]));
         EXPECT_TRUE(found[l].emplace(j, std::pair(r0, w.lane[l])).second);
       }

@@ -79,6 +79,32 @@ TEST(LatticeBonds, TakeATenthOfTheMemoryOfAList) {
   EXPECT_LT(10 * own(lattice), own(list));
 }
 
+// 6 neighbours of a particle lie along one axis, 12 along two, 8 along three.
+TEST(LatticeBonds, SkipComponentsThatAreZero) {
+  const auto points = scenes::box<3>({5, 5, 40});
+  const hmps::LatticeBonds<float, 3> bonds(hmps::vectors(points), {.spacing = scenes::Scene<3>::spacing});
+  const std::size_t middle = bonds.slot(2 * 200 + 2 * 40 + 20) / bonds.width;
+  int rows = 0, along = 0;
+  bonds.for_each_row(middle, [&](const auto& row) {
+    ++rows;
+    for (int c = 0; c < 3; ++c) along += row.along(c) ? 1 : 0;
+  });
+  EXPECT_EQ(rows, 26);
+  EXPECT_EQ(along, 54);
+}
+
+TEST(LatticeBonds, KeepTheShapesOfLikeBlocksOnce) {
+  const double l0 = scenes::Scene<3>::spacing;
+  // Rows of one length after the other differ in what is inside only.
+  const auto bytes = [&](int length) {
+    const auto points = scenes::box<3>({3, 3, length});
+    const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+    return static_cast<double>(static_cast<const hmps::Blocks<double, 3>&>(bonds).bytes());
+  };
+  // Position (three doubles), place and slot of a particle (four bytes each), and a byte and an index per block.
+  EXPECT_NEAR((bytes(320) - bytes(160)) / (9 * 160), 24 + 8 + 5. / 8, 0.5);
+}
+
 TEST(LatticeBonds, RefuseWhatIsOffTheLattice) {
   auto points = scenes::box<2>({8, 4});
   const double l0 = scenes::Scene<2>::spacing;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The limits of one core, with which the step is compared:
+//
+//   roofline/fma/KIND          multiply-adds in registers; the counter FLOP is operations per second
+//   roofline/gather/KIND       64 bytes from places that are not aligned, in the first-level cache; bytes per second
+//   roofline/triad/KIBIBYTES   a = b + s c over a working set of this size; bytes per second
+#include "roofline.hpp"
+
+#include "support.hpp"
+
+namespace {
+
+using namespace bench;
+
+template <class T, int chains>
+void fma(benchmark::State& run) {
+  constexpr std::size_t rounds = 20000;
+  T number = 0;
+  for (auto _ : run) {
+    number = multiply_add<T, chains>(rounds, number);
+    benchmark::DoNotOptimize(number);
+  }
+  run.counters["FLOP"] = benchmark::Counter(
+      static_cast<double>(run.iterations()) * multiply_add_flop<T, chains>(rounds), benchmark::Counter::kIsRate);
+}
+
+template <class T>
+void gather(benchmark::State& run) {
+  const Gather<T> gather;
+  for (auto _ : run) benchmark::DoNotOptimize(gather());
+  run.SetBytesProcessed(static_cast<std::int64_t>(static_cast<double>(run.iterations()) * Gather<T>::bytes()));
+}
+
+void triad(benchmark::State& run, std::size_t bytes) {
+  Triad triad(bytes);
+  for (auto _ : run) {
+    triad();
+    benchmark::ClobberMemory();
+  }
+  run.SetBytesProcessed(static_cast<std::int64_t>(static_cast<double>(run.iterations()) * triad.bytes()));
+}
+
+#ifdef __clang__
+constexpr const char* compiler = "clang++ " __clang_version__;
+#else
+constexpr const char* compiler = "g++ " __VERSION__;
+#endif
+
+[[maybe_unused]] const bool added = [] {
+  benchmark::AddCustomContext("compiler", compiler);
+  benchmark::RegisterBenchmark("roofline/fma/float", fma<float, 12>);
+  benchmark::RegisterBenchmark("roofline/fma/double", fma<double, 12>);
+  benchmark::RegisterBenchmark("roofline/gather/float", gather<float>);
+  benchmark::RegisterBenchmark("roofline/gather/double", gather<double>);
+  for (const std::size_t kibibytes : {16u, 256u, 512u, 4096u, 16384u, 65536u, 262144u})
+    benchmark::RegisterBenchmark(("roofline/triad/" + std::to_string(kibibytes)).c_str(),
+                                 [kibibytes](benchmark::State& run) { triad(run, kibibytes * 1024); });
+  return true;
+}();
+
+}  // namespace
