@@ -95,7 +95,7 @@ template <class B, class K = typename B::Scalar>
 template <class B, class K = typename B::Scalar>
 void scale_neighbourhoods(const B& bonds, K* scale) {
   using T = Lanes<K>;
-  // The iteration halves the error at least, but for bodies of unusual shape: then means are a little off one.
+  // An iteration leaves about two thirds of the error, in boxes, sheets, bars and clouds: 25 for float, 70 for double.
   constexpr int most_iterations = 100;
   const std::size_t slots = bonds.slot_count();
   std::vector<K> next(slots);

@@ -83,14 +83,13 @@ struct Coupling {
   Lanes<K> c;             ///< Acts on the current position of the neighbour, in Pa/m2.
 };
 
-/// A term of the internal force. Valid expressions, of which a term has one or both:
+/// A term of the internal force. Valid expressions, of which a term has one or more:
 ///
 /// | expression | meaning |
 /// |---|---|
 /// | `term.couple(particles, coupling)` | adds to `coupling.M` and `coupling.c` of a `BlockOfParticles` |
 /// | `term.damping(bonds)` | d of the whole body, in Pa s/m2 |
-/// | `term.pressure(particles, theta)` | dU/dtheta in Pa, for an energy U of the mean dilatation; see `MeanDilatation`
-/// |
+/// | `term.pressure(particles, theta)` | dU/dtheta in Pa, U being an energy of the mean dilatation theta |
 ///
 /// Satisfied by `Elastic`, `Artificial`, `Viscous`, `MeanDilatation`, `Record`, and a user's own struct.
 template <class Term, class K, int D>
