@@ -234,7 +234,8 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
   const Anatomy anatomy;
   const hmps::Box<double, 3> box{1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
   // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other. A plane
-  // of particles along the posterior wall, which then is no staircase; along z the same for want of a reason.
+  // of particles along the posterior wall, which then is no staircase; z has no such surface and follows x. At 1.8 mm the
+  // fold hangs on this place: see docs/swallowing.md.
   const double plane = 1e-3 * Pharynx::posterior_wall + (0.5 + settings.lattice_shift) * l0;
   const Point origin(plane, l0 / 2, plane);
 
@@ -260,8 +261,9 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
   }
   detail::declare_contacts(scene, body);
   scene.skin = detail::raised_skin(scene, body, anatomy);
+  const Point placement = detail::leaf_placement(body, l0);
   for (Region& region : scene.regions)
-    if (region.name == "E" || region.name == "F") region.placement = detail::leaf_placement(body, l0);
+    if (region.name == "E" || region.name == "F") region.placement = placement;
   if (settings.constrictors) detail::add_constrictors(scene, anatomy, read_constrictors(settings.data));
   std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
   return scene;

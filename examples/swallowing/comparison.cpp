@@ -75,7 +75,7 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
   text +=
       "\nThe time is that at which the line from the centre of the epiglottis (the level of region F) to its tip\n"
       "first passes below the horizontal; \"base to tip\" reads the line from its base to its tip instead. The\n"
-      "motion was calibrated on X1, X3 and Y1 at 2.4 mm; Y3, and each case at another spacing, is a prediction.\n";
+      "motion was calibrated on X1, X3 and Y1 at 2.4 mm, with an eye on 1.8 mm; Y3 is a prediction.\n";
   std::string runs;
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary)
