@@ -55,14 +55,9 @@ TYPED_TEST(MeanDilatation, ForceIsTheGradientOfTheEnergy) {
   constexpr int D = TypeParam::dimension;
   for (const bool jittered : {false, true}) {
     if (jittered && is_lattice<TypeParam>) continue;
-    scenes::Scene<D> scene;
-    scenes::Random random(2);
-    scene.reference = scenes::box<D>(scenes::extent<D>(6, 5, 4));
-    for (auto& p : scene.reference)
-      for (int d = 0; jittered && d < D; ++d) p[d] += 0.15 * scene.spacing * random(-1, 1);
-    scenes::move(scene);
+    const auto scene = bent_box<D>(jittered);
     const std::size_t n = scene.x.size();
-    const std::vector<double>& bulk = Materials(n).d1;
+    const std::vector<double> bulk = Materials(n).d1;
     const auto bonds = make_bonds<TypeParam>(scene);
     const auto f =
         force_of<D>(bonds, scene.x, hmps::mean_dilatation([&](const auto& at) { return at(hmps::scalars(bulk)); }));
@@ -86,20 +81,7 @@ TYPED_TEST(MeanDilatation, ForceIsTheGradientOfTheEnergy) {
     EXPECT_NEAR(hmps::mean_dilatation_energy(bonds, hmps::matrices(gradients), hmps::scalars(bulk), 1.0), H,
                 64 * std::numeric_limits<typename TypeParam::Scalar>::epsilon() * H);
 
-    double largest = 0;
-    for (const auto& density : f) largest = std::max(largest, density.norm());
-    const Tolerance<typename TypeParam::Scalar, D> tolerance(scene);
-    const double h = 1e-4 * scene.spacing;
-    for (std::size_t i = 0; i < n; i += 3)
-      for (int d = 0; d < D; ++d) {
-        const double old = x[i][d];
-        x[i][d] = old + h;
-        const double above = energy();
-        x[i][d] = old - h;
-        const double below = energy();
-        x[i][d] = old;
-        EXPECT_NEAR(f[i][d], -(above - below) / (2 * h), 1e-6 * largest + tolerance.elastic) << i << ' ' << d;
-      }
+    expect_minus_gradient<D>(f, x, energy, scene.spacing, Tolerance<typename TypeParam::Scalar, D>(scene).elastic);
   }
 }
 

@@ -118,4 +118,36 @@ double largest_difference(const Vectors<D>& a, Value&& b) {
   return largest;
 }
 
+/// A small box in a strained state, for comparison with differences of an energy.
+template <int D>
+scenes::Scene<D> bent_box(bool jittered) {
+  scenes::Scene<D> scene;
+  scenes::Random random(2);
+  scene.reference = scenes::box<D>(scenes::extent<D>(6, 5, 4));
+  for (auto& p : scene.reference)
+    for (int d = 0; jittered && d < D; ++d) p[d] += 0.15 * scene.spacing * random(-1, 1);
+  scenes::move(scene);
+  return scene;
+}
+
+/// Compares every third force with minus the central difference of `energy()`, which reads `x`.
+template <int D, class Energy>
+void expect_minus_gradient(const Vectors<D>& force, std::vector<Eigen::Matrix<double, D, 1>>& x, Energy&& energy,
+                           double spacing, double tolerance) {
+  double largest = 0;
+  for (const auto& f : force) largest = std::max(largest, f.norm());
+  const double h = 1e-4 * spacing;
+  for (std::size_t i = 0; i < x.size(); i += 3)
+    for (int d = 0; d < D; ++d) {
+      const double old = x[i][d];
+      x[i][d] = old + h;
+      const double above = energy();
+      x[i][d] = old - h;
+      const double below = energy();
+      x[i][d] = old;
+      // The differences' error: h^2 of the third derivative, and the rounding of H over h.
+      EXPECT_NEAR(force[i][d], -(above - below) / (2 * h), 1e-6 * largest + tolerance) << i << ' ' << d;
+    }
+}
+
 }  // namespace equations

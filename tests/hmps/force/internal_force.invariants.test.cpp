@@ -65,12 +65,7 @@ TYPED_TEST(Invariants, ForceIsTheGradientOfTheEnergy) {
   using Mat = Eigen::Matrix<double, D, D>;
   for (const bool jittered : {false, true}) {
     if (jittered && is_lattice<TypeParam>) continue;
-    scenes::Scene<D> scene;
-    scenes::Random random(2);
-    scene.reference = scenes::box<D>(scenes::extent<D>(6, 5, 4));
-    for (auto& p : scene.reference)
-      for (int d = 0; jittered && d < D; ++d) p[d] += 0.15 * scene.spacing * random(-1, 1);
-    scenes::move(scene);
+    const auto scene = bent_box<D>(jittered);
     const Materials m(scene.x.size());
     const auto bonds = make_bonds<TypeParam>(scene);
     const auto answer = this->evaluate(bonds, scene.x, m);
@@ -86,22 +81,7 @@ TYPED_TEST(Invariants, ForceIsTheGradientOfTheEnergy) {
              body.artificial_energy(i, x, F[i], [&](std::size_t k) { return m.modulus[k]; });
       return H;
     };
-    double largest = 0;
-    for (const auto& f : answer.force) largest = std::max(largest, f.norm());
-    const Tolerance<K, D> tolerance(scene);
-    const double h = 1e-4 * scene.spacing;
-    for (std::size_t i = 0; i < x.size(); i += 3)
-      for (int d = 0; d < D; ++d) {
-        const double old = x[i][d];
-        x[i][d] = old + h;
-        const double above = energy();
-        x[i][d] = old - h;
-        const double below = energy();
-        x[i][d] = old;
-        // The differences' error: h^2 of the third derivative, and the rounding of H over h.
-        EXPECT_NEAR(answer.force[i][d], -(above - below) / (2 * h), 1e-6 * largest + tolerance.elastic)
-            << i << ' ' << d;
-      }
+    expect_minus_gradient<D>(answer.force, x, energy, scene.spacing, Tolerance<K, D>(scene).elastic);
   }
 }
 
