@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: a term of internal_force needs couple(particles, coupling) or damping(bonds)
+// expect: a term of internal_force needs couple(particles, coupling), damping(bonds) or pressure(particles, theta)
 #include <vector>
 
 #include "hmps/force/internal_force.hpp"
