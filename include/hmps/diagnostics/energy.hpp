@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <type_traits>
-#include <vector>
 
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
@@ -134,18 +133,17 @@ template <class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Ser
                                             const Vol& volume, const E& execute = {}) {
   require_size(F, bonds.size(), "deformation gradients");
   require_positive(volume, bonds.size(), "volume", "m3");
-  std::vector<typename B::Scalar> scale(bonds.slot_count());
-  detail::scale_neighbourhoods(bonds, scale.data());
+  const auto scales = detail::neighbourhood_scales(bonds);
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {
         const auto scaled = [&](std::size_t k) {
           const Matrix<double, D> gradient = F[k].template cast<double>();
-          return static_cast<double>(scale[bonds.slot(k)]) * (determinant(gradient) - 1);
+          return static_cast<double>(scales[0][bonds.slot(k)]) * (determinant(gradient) - 1);
         };
         double sum = scaled(i);
         bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
-        const double theta = static_cast<double>(scale[bonds.slot(i)]) * sum;
+        const double theta = static_cast<double>(scales[0][bonds.slot(i)]) * sum;
         return static_cast<double>(at_particle(volume, i)) * static_cast<double>(detail::material_at(bulk, i)) * 0.5 *
                theta * theta;
       },

@@ -7,11 +7,11 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "hmps/core/error.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/force/terms.hpp"
+#include "hmps/neighbours/blocks.hpp"
 
 namespace hmps {
 
@@ -81,7 +81,7 @@ template <class Bulk>
 
 namespace detail {
 
-/// The sum of `values` over each particle of `block` and its bonded neighbours.
+/// The sum of `values`, of `SlotArrays`, over each particle of `block` and its bonded neighbours.
 template <class B, class K = typename B::Scalar>
 [[nodiscard]] HMPS_INLINE Lanes<K> sum_over_neighbourhood(const B& bonds, std::size_t block, const K* values) {
   using T = Lanes<K>;
@@ -91,26 +91,26 @@ template <class B, class K = typename B::Scalar>
   return sum;
 }
 
-/// The d of `MeanDilatation` for every slot of `bonds`, into `scale`.
+/// The d of `MeanDilatation` for every slot of `bonds`.
 template <class B, class K = typename B::Scalar>
-void scale_neighbourhoods(const B& bonds, K* scale) {
+[[nodiscard]] SlotArrays<K> neighbourhood_scales(const B& bonds) {
   using T = Lanes<K>;
   // An iteration leaves about two thirds of the error, in boxes, sheets, bars and clouds: 25 for float, 70 for double.
   constexpr int most_iterations = 100;
-  const std::size_t slots = bonds.slot_count();
-  std::vector<K> next(slots);
-  std::fill(scale, scale + slots, K(1));
+  SlotArrays<K> scales(1, bonds.slot_count()), next(scales);
+  std::fill_n(scales[0], bonds.slot_count(), K(1));
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     K error = 0;
     for (std::size_t block = 0; block < bonds.block_count(); ++block) {
       const std::size_t slot = block * B::width;
-      const T own = load(scale + slot), sum = sum_over_neighbourhood(bonds, block, scale), mean = own * sum;
-      store(next.data() + slot, sqrt(own / sum));
+      const T own = load(scales[0] + slot), sum = sum_over_neighbourhood(bonds, block, scales[0]), mean = own * sum;
+      store(next[0] + slot, sqrt(own / sum));
       for (int l = 0; l < T::width; ++l) error = std::max(error, std::abs(mean.lane[l] - K(1)));
     }
     if (error < 16 * std::numeric_limits<K>::epsilon()) break;
-    std::copy(next.begin(), next.end(), scale);
+    std::swap(scales, next);
   }
+  return scales;
 }
 
 }  // namespace detail

@@ -48,13 +48,13 @@ class InternalForce {
         displacement_(couples ? D : 0, bonds.slot_count()),
         velocity_(damps ? D : 0, bonds.slot_count()),
         coupling_(couples ? D * D + 1 : 0, bonds.slot_count()),
-        dilatation_(dilates ? 3 : 0, bonds.slot_count()) {
+        dilatation_(dilates ? 2 : 0, bonds.slot_count()) {
     if constexpr (damps) {
       double sum = 0;
       std::apply([&](const auto&... term) { (add_damping(term, sum), ...); }, terms_);
       damping_ = static_cast<K>(sum);
     }
-    if constexpr (dilates) detail::scale_neighbourhoods(bonds, dilatation_[scale]);
+    if constexpr (dilates) scales_ = detail::neighbourhood_scales(bonds);
   }
 
   /// Evaluates from now on only what the particles need for which `moves(i)` holds: those that follow the force. What
@@ -108,7 +108,7 @@ class InternalForce {
   [[nodiscard]] const B& bonds() const { return *bonds_; }
   /// Bytes of scratch memory.
   [[nodiscard]] std::size_t bytes() const {
-    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + dilatation_.bytes() +
+    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + dilatation_.bytes() + scales_.bytes() +
            (dilated_.size() + coupled_.size() + summed_.size()) * sizeof(Index);
   }
 
@@ -158,12 +158,12 @@ class InternalForce {
     const Matrix<T, D> F =
         detail::deformation_gradient_lanes(*bonds_, block, displacement_, bonds_->shape_inverse_lanes(block));
     for (int k = 0; k < D * D; ++k) store(coupling_[static_cast<std::size_t>(k)] + slot, F(k % D, k / D));
-    store(dilatation_[own] + slot, load(dilatation_[scale] + slot) * (determinant(F) - T(1)));
+    store(dilatation_[own] + slot, load(scales_[0] + slot) * (determinant(F) - T(1)));
   }
   /// Second of them: d U'(theta).
   void press(std::size_t block) {
     const std::size_t slot = block * B::width;
-    const T d = load(dilatation_[scale] + slot);
+    const T d = load(scales_[0] + slot);
     const T theta = d * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[own]);
     const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block), F = kept_gradient(block);
     const BlockOfParticles<K, D> particles(*bonds_, block, F, inverse);
@@ -194,8 +194,7 @@ class InternalForce {
     coupling.c = T(0);
     std::apply([&](const auto&... term) { (add_coupling(term, particles, coupling), ...); }, terms_);
     if constexpr (dilates) {
-      const T pressure =
-          load(dilatation_[scale] + slot) * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[shared]);
+      const T pressure = load(scales_[0] + slot) * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[shared]);
       const Matrix<T, D> push = product(cofactor(F), inverse);
       for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pressure * push(k % D, k / D);
     }
@@ -255,8 +254,8 @@ class InternalForce {
 
   const B* bonds_;
   std::tuple<Terms...> terms_;
-  enum : std::size_t { own, shared, scale };  // components of dilatation_: d (J - 1), d U', d
-  SlotArrays<K> displacement_, velocity_, coupling_, dilatation_;
+  enum : std::size_t { own, shared };  // components of dilatation_: d (J - 1), d U'
+  SlotArrays<K> displacement_, velocity_, coupling_, dilatation_, scales_;
   bool restricted_ = false;
   std::vector<Index> dilated_, coupled_, summed_;  // if restricted, the blocks that each sweep visits
   K damping_ = 0;
