@@ -230,16 +230,28 @@ class InternalForce {
     bonds_->for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
       const T w = bond.weight();
       if constexpr (couples) {
-        // Apart from the sum of all bonds, so that one bond need not wait for the one before.
-        Vector<T, D> pull;
         const T stretch = c + bond.gather(coupling_[D * D]);
-        for (int row = 0; row < D; ++row)
-          pull[row] = stretch * (bond.gather(displacement_[static_cast<std::size_t>(row)]) - u[row]);
-        for (int col = 0; col < D; ++col)
-          if (bond.along(col))
-            for (int row = 0; row < D; ++row)
-              pull[row] += bond.gather(coupling_[static_cast<std::size_t>(row + D * col)]) * bond.offset(col);
-        for (int row = 0; row < D; ++row) force[row] += w * pull[row];
+        const auto stretched = [&](int row) HMPS_INLINE_LAMBDA {
+          return stretch * (bond.gather(displacement_[static_cast<std::size_t>(row)]) - u[row]);
+        };
+        const auto carried = [&](int row, int col) HMPS_INLINE_LAMBDA {
+          return bond.gather(coupling_[static_cast<std::size_t>(row + D * col)]) * bond.offset(col);
+        };
+        // What a bond pulls is apart from the sum of all bonds, so that one need not wait for the one before.
+        if constexpr (std::remove_cvref_t<decltype(bond)>::skips) {
+          Vector<T, D> pull;
+          for (int row = 0; row < D; ++row) pull[row] = stretched(row);
+          for (int col = 0; col < D; ++col)
+            if (bond.along(col))
+              for (int row = 0; row < D; ++row) pull[row] += carried(row, col);
+          for (int row = 0; row < D; ++row) force[row] += w * pull[row];
+        } else {  // With nothing to skip this order is faster, by an eighth in double.
+          for (int row = 0; row < D; ++row) {
+            T pull = stretched(row);
+            for (int col = 0; col < D; ++col) pull += carried(row, col);
+            force[row] += w * pull;
+          }
+        }
       }
       if constexpr (damps)
         for (int d = 0; d < D; ++d) drag[d] += w * (bond.gather(velocity_[static_cast<std::size_t>(d)]) - v[d]);

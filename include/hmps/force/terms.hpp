@@ -109,8 +109,8 @@ concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || Dilat
 
 /// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows
 /// with `row.gather(values)` (a value of the neighbour in each lane), `row.offset(c)` (component c of
-/// r0), `row.along(c)` (false where that is zero for all lanes and may be skipped) and `row.weight()` (w, zero in lanes
-/// without this bond). Satisfied by `BondList` and `LatticeBonds`.
+/// r0), `row.along(c)` (false where that is zero for all lanes and may be skipped), the constant `skips` (whether it
+/// ever is) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> && requires(const B& bonds) {
   bonds.for_each_row(std::size_t{0}, [](const auto&) {});

@@ -121,6 +121,7 @@ class BondList : public Blocks<K, D> {
       for (std::size_t l = 0; l < width; ++l) result.lane[l] = values[neighbour[l]];
       return result;
     }
+    static constexpr bool skips = false;
     [[nodiscard]] HMPS_INLINE static constexpr bool along(int) { return true; }
     [[nodiscard]] HMPS_INLINE Lanes<K> offset(int c) const { return load(r0[c]); }
     [[nodiscard]] HMPS_INLINE Lanes<K> weight() const { return load(w); }

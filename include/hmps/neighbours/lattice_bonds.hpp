@@ -148,6 +148,7 @@ class LatticeBonds : public Blocks<K, D> {
     std::ptrdiff_t first;
     std::uint32_t axes;
 
+    static constexpr bool skips = true;
     [[nodiscard]] HMPS_INLINE bool along(int c) const { return (axes >> c & 1u) != 0; }
     [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const { return load(values + first); }
     [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
