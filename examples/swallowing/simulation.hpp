@@ -44,7 +44,6 @@ class Simulation {
         x_(scene.reference.size()),
         places_(x_.size()),
         v_(3 * x_.size(), S(0)),
-        f_(3 * x_.size()),
         F_(9 * x_.size(), S(0)),
         modulus_(young_per_particle(scene, materials)),
         bonds_(hmps::vectors(scene.reference).part(0, scene.elastic_count), {.spacing = scene.spacing},
@@ -72,20 +71,16 @@ class Simulation {
   void step() {
     const auto x = positions();
     const auto v = velocities();
-    force_(body(x), body(v), body(forces()), execute_);
-    hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
+    force_.kick(body(x), body(v), materials_.density, time_step_, execute_);
     // What has a forced displacement moves by it, also as a wall, whatever forces act on it.
     ++steps_;
     prescribe();
 
     const auto start = std::chrono::steady_clock::now();
-    std::fill(f_.begin(), f_.end(), S(0));
     // Contact sees the drawn surfaces, not the stairs of the lattice.
     (*scene_->skin)(x, gradients(), hmps::vectors(places_), execute_);
-    report_ = contact_(hmps::vectors(places_), v, gradients(), time_step_, forces(), execute_);
+    report_ = contact_.kick(hmps::vectors(places_), v, gradients(), materials_.density, time_step_, execute_);
     contact_.check(report_, time());
-    for (const auto& region : regions_) region.unload(forces());
-    hmps::kick(body(v), body(forces()), materials_.density, time_step_, execute_);
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
     hmps::drift(x, v, time_step_, execute_);
@@ -151,7 +146,6 @@ class Simulation {
     for (std::size_t c = 0; c < N; ++c) base[c] = values.data() + c * x_.size();
     return {base, x_.size(), sizeof(S)};
   }
-  [[nodiscard]] hmps::VectorView<S, 3> forces() { return structure_of_arrays<3>(f_); }
 
   [[nodiscard]] static std::vector<S> young_per_particle(const Scene& scene, const Materials& materials) {
     std::vector<S> young;
@@ -181,8 +175,16 @@ class Simulation {
 
   /// Gives the control regions the velocities that take them where they are at the end of the step.
   void prescribe() {
+    const auto one = [&](const auto& region, const auto& execute) {
+      region.prescribe(time(), time_step_, positions(), velocities(), execute, materials_.speed_limit);
+    };
+    // The particles of a large region are shared out among the threads; of small ones, such as plates, the regions.
+    const auto large = [](const auto& region) { return region.particles().size() > 1000; };
     for (const auto& region : regions_)
-      region.prescribe(time(), time_step_, positions(), velocities(), hmps::Serial{}, materials_.speed_limit);
+      if (large(region)) one(region, execute_);
+    execute_(regions_.size(), [&](std::size_t r) {
+      if (!large(regions_[r])) one(regions_[r], hmps::Serial{});
+    });
   }
 
   void add_contacts() {
@@ -210,7 +212,7 @@ class Simulation {
   Materials materials_;
   hmps::OpenMP execute_;
   std::vector<Eigen::Vector3d> x_, places_;
-  std::vector<S> v_, f_, F_, modulus_;
+  std::vector<S> v_, F_, modulus_;
   hmps::LatticeBonds<S, 3> bonds_;
   decltype(hmps::internal_force(std::declval<const hmps::LatticeBonds<S, 3>&>(),
                                 hmps::record(std::declval<hmps::MatrixView<S, 3>>()),

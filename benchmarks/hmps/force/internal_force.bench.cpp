@@ -45,11 +45,10 @@ void step(benchmark::State& run, State<S> state, const Executor& execute) {
   const Bonds bonds(state.positions(), {.spacing = spacing});
   auto force =
       hmps::internal_force(bonds, hmps::elastic(tissue), hmps::artificial(young), hmps::viscous(density, viscosity));
-  const auto x = state.positions(), v = state.velocities(), f = state.forces();
+  const auto x = state.positions(), v = state.velocities();
   const std::clock_t start = std::clock();
   for (auto _ : run) {
-    force(x, v, f, execute);
-    hmps::kick(v, f, density, time_step, execute);
+    force.kick(x, v, density, time_step, execute);
     hmps::drift(x, v, time_step, execute);
   }
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/contact/candidates.hpp"
@@ -19,8 +20,10 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
+#include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/time/symplectic_euler.hpp"
 
 namespace hmps {
 
@@ -131,6 +134,28 @@ class MetaballContact {
     return evaluate(x, v, detail::Undeformed<S, D>{}, dt, f, execute);
   }
 
+  /// Adds to the velocities `v` (m/s) of what touches what contact gives in the step `dt` (s), \paper{3}: the forces
+  /// of the call above and `kick`, without an array of forces, and at no cost for particles that are far from any
+  /// other organ. Particles that are `prescribed` keep their velocity. Density `rho` in kg/m3, a number or a
+  /// `ScalarView`. Throws as those two do.
+  template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
+  ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
+                        double dt, const E& execute = {}) {
+    static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
+    require_size(F, x.size(), "deformation gradients");
+    require_positive(rho, x.size(), "density", "kg/m3");
+    const ContactReport<S> report = survey(x, v, F, dt, execute);
+    if (report.contacts == 0) return report;
+    hand_out(
+        [&](const typename Lists::Awake& own, const Point& force) {
+          if (own.flags & Lists::is_prescribed) return;
+          const Index i = own.particle;
+          for (int c = 0; c < D; ++c) detail::kick(v(i, c), force[c], at_particle(rho, i), dt);
+        },
+        execute);
+    return report;
+  }
+
   /// Throws a `StateError` if `report`, that of the latest call, has a slave that its wall has lost: time (s, if
   /// given), particle, organ, depth, and what to try. Call it after each evaluation, not now and then: what passes a
   /// thin wall is in it for a few steps only, and seems to be all right beyond it. Costs one comparison. Nothing
@@ -176,7 +201,16 @@ class MetaballContact {
   static constexpr std::size_t batch = 64;
 
   template <class X, class V, class G, class T, class E>
-  ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute);
+  ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute) {
+    require_size(f, x.size(), "contact forces");
+    const ContactReport<S> report = survey(x, v, F, dt, execute);
+    if (report.contacts > 0)
+      hand_out([&](const typename Lists::Awake& own, const Point& force) { f.add(own.particle, force); }, execute);
+    return report;
+  }
+  /// The forces of all rows that touch, for `hand_out`.
+  template <class X, class V, class G, class E>
+  ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
 
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
@@ -187,8 +221,8 @@ class MetaballContact {
   void gather(const X& x, const V& v, const G& F, const E& execute);
   template <class E>
   void weigh(const E& execute);
-  template <class T, class E>
-  void hand_out(const T& f, const E& execute) const;
+  template <class Take, class E>
+  void hand_out(const Take& take, const E& execute) const;
 
   ContactSettings settings_;
   Lists lists_;

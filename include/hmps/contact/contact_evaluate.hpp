@@ -144,15 +144,15 @@ void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
 
 /// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
-template <class T, class E>
-void MetaballContact<S, D, Ball, Friction>::hand_out(const T& f, const E& execute) const {
+template <class Take, class E>
+void MetaballContact<S, D, Ball, Friction>::hand_out(const Take& take, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
     // Rows that do not touch have no force: adding it costs less than to ask.
     Quad force{};
     for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.slave_rows[q]];
     for (std::size_t e = own.entries; e < next.entries; ++e) force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
-    f.add(own.particle, detail::first<D, S>(force));
+    take(own, Point(detail::first<D, S>(force)));
   });
 }
 
@@ -167,12 +167,11 @@ void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report,
 }
 
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
-template <class X, class V, class G, class T, class E>
-ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, const V& v, const G& F, double dt,
-                                                                 const T& f, const E& execute) {
+template <class X, class V, class G, class E>
+ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const V& v, const G& F, double dt,
+                                                               const E& execute) {
   require(dt > 0 && std::isfinite(dt), "hmps: the step of a contact evaluation is ", dt, " s; give a positive number");
   require_size(v, x.size(), "velocities");
-  require_size(f, x.size(), "contact forces");
   require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
           " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
   const S k = static_cast<S>(settings_.stiffness.at(settings_.density, dt));
@@ -250,7 +249,6 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::evaluate(const X& x, con
       report.penetration = state_[r].penetration;
       report.deepest = lists_.awake[lists_.rows[r].slave].particle;
     }
-  hand_out(f, execute);
   return report;
 }
 

@@ -69,24 +69,30 @@ HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t bloc
 }
 
 /// Hands `N` numbers of each particle of `block` out to the user's `view`; `lanes(component)` are those
-/// of the particles in their lanes.
-template <class K, int D, class T, int N, class Component>
-HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view, Component&& lanes) {
+/// of the particles in their lanes, and `put(entry, number, particle)` is what becomes of one.
+template <class K, int D, class T, int N, class Component, class Put>
+HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view, Component&& lanes,
+                         Put&& put) {
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
   const bool consecutive = blocks.consecutive(block) && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T));
   for (int c = 0; c < N; ++c) {
     const Lanes<K> numbers = lanes(c);
     if (consecutive) {
-      T* target = view.base(c) + blocks.particle(first);
-      for (std::size_t l = 0; l < width; ++l) target[l] = static_cast<T>(numbers.lane[l]);
+      const std::size_t i = blocks.particle(first);
+      T* target = view.base(c) + i;
+      for (std::size_t l = 0; l < width; ++l) put(target[l], numbers.lane[l], i + l);
     } else {
       for (std::size_t l = 0; l < width; ++l) {
         const Index i = blocks.particle(first + l);
-        if (i != Blocks<K, D>::none) view(i, c) = static_cast<T>(numbers.lane[l]);
+        if (i != Blocks<K, D>::none) put(view(i, c), numbers.lane[l], i);
       }
     }
   }
+}
+template <class K, int D, class T, int N, class Component>
+HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view, Component&& lanes) {
+  deliver(blocks, block, view, lanes, [](T& entry, K number, std::size_t) { entry = static_cast<T>(number); });
 }
 
 /// The deformation gradient F of the particles of one block by \paper{11}, the minimiser of the

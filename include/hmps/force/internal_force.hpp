@@ -13,6 +13,7 @@
 #include "hmps/elastic/deformation_gradient.hpp"
 #include "hmps/elastic/mean_dilatation.hpp"
 #include "hmps/force/terms.hpp"
+#include "hmps/time/symplectic_euler.hpp"
 
 namespace hmps {
 
@@ -83,26 +84,32 @@ class InternalForce {
   template <class X, class V, class F, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                   const E& execute = {}) {
-    require_size(x, bonds_->size(), "positions");
-    require_size(v, bonds_->size(), "velocities");
     require_size(f, bonds_->size(), "forces");
-    const Vector<double, D> common = detail::common_displacement(*bonds_, x);
-    execute(bonds_->block_count(), [&](std::size_t block) {
-      if constexpr (couples) detail::stage_displacement(*bonds_, block, x, common, displacement_);
-      if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
+    evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
+      detail::deliver(*bonds_, block, f, force);
     });
-    if constexpr (dilates) {
-      sweep(dilated_, execute, [&](std::size_t block) { dilate(block); });
-      sweep(dilated_, execute, [&](std::size_t block) { press(block); });
-    }
-    if constexpr (couples) sweep(coupled_, execute, [&](std::size_t block) { couple(block); });
-    sweep(summed_, execute, [&](std::size_t block) { sum(block, f); });
   }
 
   /// The same for terms that do not read velocities.
   template <class X, class F, Executor E = Serial>
   requires(!damps) void operator()(const VectorView<X, D>& x, const VectorView<F, D>& f, const E& execute = {}) {
     (*this)(x, x, f, execute);
+  }
+
+  /// Adds to the velocities `v` (m/s) what the forces give in the time `dt` (s), \paper{2}: what evaluation and `kick`
+  /// do one after the other, in the last sweep itself, so that no array of forces is written or read. Density `rho` in
+  /// kg/m3, a number or a `ScalarView`. Throws `InputError` as those two do.
+  template <class X, class V, PerParticle Rho, Executor E = Serial>
+  void kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& rho, double dt, const E& execute = {}) {
+    static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
+    require_positive(rho, v.size(), "density", "kg/m3");
+    detail::require_step(dt);
+    // Other blocks read the velocities of the staged copy, so that these may change while they do.
+    evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
+      detail::deliver(*bonds_, block, v, force, [&](V& velocity, K density, std::size_t i) HMPS_INLINE_LAMBDA {
+        detail::kick(velocity, density, at_particle(rho, i), dt);
+      });
+    });
   }
 
   [[nodiscard]] const B& bonds() const { return *bonds_; }
@@ -113,6 +120,25 @@ class InternalForce {
   }
 
  private:
+  /// All sweeps at positions `x` and velocities `v`; the last calls `take(block, force)` with what gives the lanes of
+  /// each component of the force density.
+  template <class X, class V, class E, class Take>
+  void evaluate(const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
+    require_size(x, bonds_->size(), "positions");
+    require_size(v, bonds_->size(), "velocities");
+    const Vector<double, D> common = detail::common_displacement(*bonds_, x);
+    execute(bonds_->block_count(), [&](std::size_t block) {
+      if constexpr (couples) detail::stage_displacement(*bonds_, block, x, common, displacement_);
+      if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
+    });
+    if constexpr (dilates) {
+      sweep(dilated_, execute, [&](std::size_t block) { dilate(block); });
+      sweep(dilated_, execute, [&](std::size_t block) { press(block); });
+    }
+    if constexpr (couples) sweep(coupled_, execute, [&](std::size_t block) { couple(block); });
+    sweep(summed_, execute, [&](std::size_t block) { sum(block, take); });
+  }
+
   /// The blocks with a particle that is marked.
   [[nodiscard]] std::vector<Index> blocks_of(const std::vector<char>& marked) const {
     std::vector<char> found(bonds_->block_count(), 0);
@@ -205,8 +231,8 @@ class InternalForce {
   }
 
   /// The last sweep: the sum in `Coupling` over the bonds of the particles of `block`.
-  template <class F>
-  void sum(std::size_t block, const VectorView<F, D>& f) const {
+  template <class Take>
+  void sum(std::size_t block, const Take& take) const {
     const std::size_t slot = block * B::width;
     const std::size_t last = bonds_->last_slot(block);
     displacement_.prefetch(last + ahead);
@@ -258,7 +284,7 @@ class InternalForce {
     });
     if constexpr (damps)
       for (int d = 0; d < D; ++d) force[d] += damping_ * drag[d];
-    detail::deliver(*bonds_, block, f, [&](int d) { return force[d]; });
+    take(block, [&](int d) { return force[d]; });
   }
 
   /// How far ahead of what a block needs memory is asked for: some hundred nanoseconds of work.

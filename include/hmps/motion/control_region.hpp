@@ -69,11 +69,12 @@ class ControlRegion {
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
     const auto pose = motion_(t_next);
+    const double per_step = 1 / dt, largest = std::min(speed_limit * speed_limit, std::numeric_limits<double>::max());
     execute(particles_.size(), [&](std::size_t k) {
       const std::size_t i = particles_[k];
       const Vector<double, D> target = pose(Vector<double, D>(reference_[i].template cast<double>()));
-      const Vector<double, D> rate = (target - x[i].template cast<double>()) / dt;
-      if (!(rate.norm() <= speed_limit))
+      const Vector<double, D> rate = (target - x[i].template cast<double>()) * per_step;
+      if (!(rate.squaredNorm() <= largest))
         throw StateError(message("hmps: a control region asks particle ", i, " for ", rate.norm(), " m/s to be at (",
                                  target.transpose(), ") at ", t_next,
                                  " s; check its keyframes, or place the region where the run starts"));

@@ -26,6 +26,12 @@ inline void require_step(double dt) {
   require(dt > 0 && std::isfinite(dt), "hmps: the time step is ", dt,
           " s; it must be positive and finite (stable_step estimates the largest stable one)");
 }
+/// One component of the velocity of one particle, under the force density f: v + f dt / rho.
+template <class T, class U, class Rho>
+void kick(T& v, U f, Rho rho, double dt) {
+  using Real = std::common_type_t<T, U>;
+  v = static_cast<T>(v + static_cast<Real>(dt / static_cast<double>(rho)) * f);
+}
 }  // namespace detail
 
 /// Adds to the velocities what the force densities give in the time `dt`, \paper{2} and \paper{3}:
@@ -39,13 +45,11 @@ inline void require_step(double dt) {
 template <class T, class U, int D, PerParticle Rho, Executor E = Serial>
 void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, double dt, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: kick changes the velocities; give it a writable view of them");
-  using Real = std::common_type_t<T, std::remove_const_t<U>>;
   require_size(f, v.size(), "force densities");
   require_positive(rho, v.size(), "density", "kg/m3");
   detail::require_step(dt);
   execute(v.size(), [&](std::size_t i) {
-    const Real factor = static_cast<Real>(dt / static_cast<double>(at_particle(rho, i)));
-    for (int c = 0; c < D; ++c) v(i, c) = static_cast<T>(v(i, c) + factor * f(i, c));
+    for (int c = 0; c < D; ++c) detail::kick(v(i, c), f(i, c), at_particle(rho, i), dt);
   });
 }
 

@@ -421,6 +421,38 @@ TEST(Overload, UndeformedParticlesNeedNoGradients) {
   EXPECT_EQ(f, pile.f);
 }
 
+// Eq. (3): what the forces and `hmps::kick` give one after the other; what is prescribed follows no force.
+TEST(Kick, IsWhatTheForcesGive) {
+  bodies::Pile<double, 3> pile(0.9);
+  pile.shake(0.05, 0.03, 5);
+  MetaballContact<double, 3> forces(with_friction), kicks(with_friction);
+  pile.declare(forces, {}, true);
+  pile.declare(kicks, {}, true);
+  std::vector<double> rho(pile.x.size());
+  for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = i % 2 ? 1000 : 1500;
+  const auto report = pile.apply(forces, dt);
+  auto expected = pile.v, v = pile.v;
+  hmps::kick(hmps::vectors(expected), hmps::vectors(pile.f), hmps::scalars(rho), dt);
+  for (const Index i : pile.plate.all) expected[i] = pile.v[i];
+  EXPECT_NE(expected, pile.v);
+  const auto seen = kicks.kick(hmps::vectors(pile.x), hmps::vectors(v), hmps::matrices(pile.F), hmps::scalars(rho), dt,
+                               bodies::Loops{});
+  EXPECT_EQ(seen.contacts, report.contacts);
+  double gain = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) gain = std::max(gain, (expected[i] - pile.v[i]).norm());
+  for (std::size_t i = 0; i < v.size(); ++i) EXPECT_LE((v[i] - expected[i]).norm(), 1e-15 + 1e-14 * gain);
+
+  const auto before = v;
+  for (auto& x : pile.x) x[2] *= 3;  // apart
+  kicks.kick(hmps::vectors(pile.x), hmps::vectors(v), hmps::matrices(pile.F), 1000, dt);
+  EXPECT_EQ(v, before);
+  const bodies::Pile<double, 3> touching(0.9);
+  EXPECT_THROW(kicks.kick(hmps::vectors(touching.x), hmps::vectors(v), hmps::matrices(pile.F), -1, dt),
+               hmps::InputError);
+  EXPECT_THROW(kicks.kick(hmps::vectors(touching.x), hmps::vectors(v), hmps::matrices(pile.F), 1000, 0),
+               hmps::InputError);
+}
+
 TEST(SharedParticles, AParticleInTwoOrgansGathersBothContacts) {
   // The plate's top is one organ for the block and, with the same particles, another for a copy of it.
   bodies::Pile<double, 3> pile(0.9);

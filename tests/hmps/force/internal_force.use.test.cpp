@@ -226,6 +226,51 @@ TEST(InternalForce, LeavesOutWhatOnlyPrescribedParticlesNeed) {
   EXPECT_EQ(found, expected);
 }
 
+// Eq. (2) in the last sweep: what the force and `kick` give one after the other, whatever the layout.
+TEST(InternalForce, KicksAsForceAndKickDo) {
+  for (const char* name : {"box whose rows are long in the first direction", "shuffled"}) {
+    const auto scene = scene_of(name);
+    const std::size_t n = scene.x.size();
+    const auto bonds = make_bonds<Lattice>(scene);
+    auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::viscous(1000, 2e-3));
+    constexpr double dt = 1e-5;
+    std::vector<double> rho(n);
+    for (std::size_t i = 0; i < n; ++i) rho[i] = i % 2 ? 1000 : 1500;
+    Vectors<3> f(n), expected = scene.v, v = scene.v;
+    force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(f));
+    hmps::kick(hmps::vectors(expected), hmps::vectors(f), hmps::scalars(rho), dt);
+    force.kick(hmps::vectors(scene.x), hmps::vectors(v), hmps::scalars(rho), dt);
+    double gain = 0;
+    for (std::size_t i = 0; i < n; ++i) gain = std::max(gain, (expected[i] - scene.v[i]).norm());
+    EXPECT_GT(gain, 0);
+    EXPECT_LE(largest_difference<3>(v, [&](std::size_t i) { return expected[i]; }), 1e-15 + 1e-6 * gain);
+
+    std::array<std::vector<float>, 3> columns;
+    for (auto& column : columns) column.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t c = 0; c < 3; ++c) columns[c][i] = static_cast<float>(scene.v[i][static_cast<Eigen::Index>(c)]);
+    force.kick(hmps::vectors(scene.x), hmps::vectors(columns[0], columns[1], columns[2]), 1000, dt);
+    for (std::size_t i = 0; i < n; i += 2)  // of the density 1500 above
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto d = static_cast<Eigen::Index>(c);
+        EXPECT_NEAR(columns[c][i], scene.v[i][d] + 1.5 * (expected[i][d] - scene.v[i][d]),
+                    1e-6 * (gain + scene.v[i].norm()));
+      }
+  }
+}
+
+TEST(InternalForce, RefusesToKickByABadStepOrDensity) {
+  const auto scene = scene_of("shuffled");
+  const auto bonds = make_bonds<Lattice>(scene);
+  auto force = hmps::internal_force(bonds, hmps::elastic(law));
+  auto v = scene.v;
+  const auto x = hmps::vectors(scene.x);
+  EXPECT_TRUE(has(error_of([&] { force.kick(x, hmps::vectors(v), 1000, -1e-5); }), "time step is -1e-05"));
+  EXPECT_TRUE(has(error_of([&] { force.kick(x, hmps::vectors(v), 0, 1e-5); }), "density is 0 kg/m3"));
+  v.pop_back();
+  EXPECT_TRUE(has(error_of([&] { force.kick(x, hmps::vectors(v), 1000, 1e-5); }), "velocities"));
+}
+
 TEST(InternalForce, RefusesViewsOfTheWrongSize) {
   const auto scene = scene_of("box");
   const auto bonds = make_bonds<Lattice>(scene);
