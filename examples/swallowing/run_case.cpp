@@ -144,7 +144,7 @@ class Run {
         if (time >= options_.until - dt / 2) break;
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
-        if (simulation_.steps() % 16 == 0) check(simulation_, scene_);
+        if (simulation_.steps() % 32 == 0) check(simulation_, scene_);
         progress.update(simulation_.time(), simulation_.steps() - first_step, smallest_j);
       }
       checkpoint();

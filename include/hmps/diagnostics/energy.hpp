@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <functional>
 #include <type_traits>
+#include <vector>
 
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/elastic/deformation_gradient.hpp"
 #include "hmps/elastic/law.hpp"
 #include "hmps/elastic/mean_dilatation.hpp"
 #include "hmps/stabilise/artificial.hpp"
@@ -90,6 +92,38 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
       std::plus<>{}, execute);
 }
 
+namespace detail {
+/// sum_j |r_ij - F_i r0_ij|^2 w_ij in m2, \paper{9}, of the particles of one block, from displacements u: the misfit is
+/// u_j - u_i - (F_i - 1) r0_ij.
+template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
+[[nodiscard]] HMPS_INLINE Lanes<K> misfit_lanes(const B& bonds, std::size_t block, const SlotArrays<K>& displacement,
+                                                const MatrixView<T, D>& F) {
+  const std::size_t slot = block * B::width;
+  Vector<Lanes<K>, D> u;
+  Matrix<Lanes<K>, D> strain;
+  for (int d = 0; d < D; ++d) u[d] = load(displacement[static_cast<std::size_t>(d)] + slot);
+  for (int k = 0; k < D * D; ++k) {
+    strain(k % D, k / D) = Lanes<K>(0);
+    for (std::size_t l = 0; l < B::width; ++l)
+      if (const Index i = bonds.particle(slot + l); i != B::none)
+        strain(k % D, k / D).lane[l] =
+            static_cast<K>(static_cast<double>(F(i, k)) - static_cast<double>(k % D == k / D));
+  }
+  Lanes<K> sum(0);
+  bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+    Lanes<K> squares(0);
+    for (int row = 0; row < D; ++row) {
+      Lanes<K> misfit = bond.gather(displacement[static_cast<std::size_t>(row)]) - u[row];
+      for (int col = 0; col < D; ++col)
+        if (bond.along(col)) misfit = misfit - strain(row, col) * bond.offset(col);
+      squares += misfit * misfit;
+    }
+    sum += bond.weight() * squares;
+  });
+  return sum;
+}
+}  // namespace detail
+
 /// Energy of Kondo's stabiliser, whose gradient is \paper{19}: sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
 /// with C_i by \paper{20}. Its size beside the strain energy tells how much of the
 /// motion the deformation gradients do not see.
@@ -105,19 +139,23 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   require_size(x, bonds.size(), "positions");
   require_size(F, bonds.size(), "deformation gradients");
   require_positive(volume, bonds.size(), "volume", "m3");
+  using K = typename B::Scalar;
+  SlotArrays<K> displacement(D, bonds.slot_count());
+  const Vector<double, D> common = detail::common_displacement(bonds, x);
+  execute(bonds.block_count(),
+          [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
+  std::vector<double> error(bonds.size());
+  execute(bonds.block_count(), [&](std::size_t block) {
+    const Lanes<K> squares = detail::misfit_lanes(bonds, block, displacement, F);
+    detail::deliver(bonds, block, View<double, 1>({error.data()}, error.size(), sizeof(double)),
+                    [&](int) { return squares; });
+  });
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {
-        const Matrix<double, D> gradient = F[i].template cast<double>();
-        const Vector<double, D> own = x[i].template cast<double>();
-        double error = 0;
-        bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {
-          const Vector<double, D> r = x[j].template cast<double>() - own;
-          error += static_cast<double>(w) * (r - gradient * r0.template cast<double>()).squaredNorm();
-        });
         const double stiffness = artificial_coefficient(static_cast<double>(detail::material_at(modulus, i)), D,
                                                         1.0 / static_cast<double>(bonds.shape_trace(i)));
-        return static_cast<double>(at_particle(volume, i)) * stiffness * 0.5 * error;
+        return static_cast<double>(at_particle(volume, i)) * stiffness * 0.5 * error[i];
       },
       std::plus<>{}, execute);
 }

@@ -12,6 +12,7 @@
 #include "hmps/elastic/saint_venant_kirchhoff.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/neighbours/bond_list.hpp"
+#include "hmps/neighbours/lattice_bonds.hpp"
 #include "hmps/time/probed_scene.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
@@ -77,6 +78,7 @@ void artificial_energy_is_that_of_the_error() {
   const BondList<double, D> bonds(vectors(x), {.spacing = spacing});
   std::vector<Matrix<double, D>> F(x.size(), Matrix<double, D>::Identity());
   EXPECT_LT(artificial_energy(bonds, vectors(x), matrices(F), 2e4, 1e-9), 1e-28);
+  const LatticeBonds<float, D> single(vectors(x), {.spacing = spacing});
   const std::size_t moved = x.size() / 2;
   x[moved][0] += 1e-4;
   double expected = 0;
@@ -87,6 +89,7 @@ void artificial_energy_is_that_of_the_error() {
   std::vector<double> moduli(x.size(), 2e4);
   EXPECT_NEAR(artificial_energy(bonds, vectors(x), matrices(F), scalars(moduli), 1e-9), 1e-9 * expected,
               1e-12 * 1e-9 * expected);
+  EXPECT_NEAR(artificial_energy(single, vectors(x), matrices(F), 2e4, 1e-9), 1e-9 * expected, 1e-5 * 1e-9 * expected);
 }
 TEST(Energy, ArtificialEnergyIsThatOfTheError2D) { artificial_energy_is_that_of_the_error<2>(); }
 TEST(Energy, ArtificialEnergyIsThatOfTheError3D) { artificial_energy_is_that_of_the_error<3>(); }
