@@ -105,7 +105,7 @@ Scene swallow(const Scale& scale) {
       .parameters =
           {{.name = "spacing", .values = spacings, .standard = 2.4e-3, .unit = "mm", .per_unit = 1e-3, .refines = true},
            {.name = "scalar", .values = {"float", "double"}, .standard = "float"},
-           {.name = "step", .values = {1., 0.5}, .standard = 1.},
+           {.name = "step", .values = {1.3, 1., 0.5}, .standard = 1.},
            {.name = "pressure per penetration",
             .values = {2e8, 4e8},
             .standard = 2e8,

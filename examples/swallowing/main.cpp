@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
@@ -24,8 +25,11 @@ void report(const Summary& summary) {
     std::cout << "folds below the horizontal at " << *summary.fold_time << " s";
   else
     std::cout << "does not fold until " << summary.time << " s";
-  std::cout << ", smallest tip angle " << summary.tip_angle_min << " degrees; took " << duration(summary.wall_seconds)
-            << '\n';
+  std::cout << ", smallest tip angle " << summary.tip_angle_min << " degrees; ";
+  if (const auto& least = summary.least_step_limit)
+    std::cout << "the step was at most " << std::round(100 * summary.time_step / least->limit) << " % of its limit (at "
+              << least->time << " s, " << least->organ << "); ";
+  std::cout << "took " << duration(summary.wall_seconds) << '\n';
   if (summary.failure) std::cerr << summary.case_name << " stopped: " << *summary.failure << '\n';
 }
 

@@ -27,7 +27,7 @@ namespace {
 std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                                      int& exit_code) {
   Options options;
-  std::string chosen = "all", scalar = "double";
+  std::string chosen = "all", scalar, quality(default_quality.name);
   bool without_h = false, no_frames = false;
   CLI::App app(
       "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
@@ -40,21 +40,33 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   app.add_option("--case", chosen, "X1, X3, Y1, Y3 or all (default: all)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"X1", "X3", "Y1", "Y3", "all"}));
-  number(app.add_option("--spacing", options.spacing,
-                        "diameter l0 of the particles in m (default: 2.4e-3; paper: 1.2e-3)"),
-         "M")
-      ->check(within(0.5e-3, 2.4e-3, "the spacing is in metres and must lie between 0.5e-3 and 2.4e-3"));
-  number(app.add_option("--time-step", options.time_step,
-                        "time step in s, 0: from the estimate of the largest stable step (default: 0; paper: 1e-5)"),
-         "S")
-      ->check(within(0, 1e-3, "the time step is in seconds and must lie between 0 (automatic) and 1e-3"));
+  std::vector<std::string> names;
+  for (const Quality& q : qualities) names.emplace_back(q.name);
+  app.add_option(
+         "--quality", quality,
+         "spacing, time step and scalar in one: draft (default), standard, paper or fine; what is named beside it "
+         "overrules it")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names));
+  auto* spacing =
+      number(app.add_option(
+                 "--spacing", options.spacing,
+                 "diameter l0 of the particles in m (draft: 2.4e-3, standard: 1.8e-3, paper: 1.2e-3, fine: 1e-3)"),
+             "M")
+          ->check(within(0.5e-3, 2.4e-3, "the spacing is in metres and must lie between 0.5e-3 and 2.4e-3"));
+  auto* time_step =
+      number(app.add_option("--time-step", options.time_step,
+                            "time step in s, 0: from the estimate of the largest stable step (default: 0; paper: "
+                            "1e-5)"),
+             "S")
+          ->check(within(0, 1e-3, "the time step is in seconds and must lie between 0 (automatic) and 1e-3"));
   number(app.add_option("--until", options.until, "end of the simulated time in s (default: 2.05)"), "S")
       ->check(within(1e-9, end_of_swallow,
                      "the end is in seconds and must lie above 0 and at most at 2.05, where the "
                      "swallow ends"));
   number(app.add_option("--friction", options.friction, "friction coefficient instead of the cases' 0.1 and 0.3"), "MU")
       ->check(within(0, 10, "the friction coefficient must lie between 0 and 10"));
-  app.add_option("--scalar", scalar, "float or double (default: double)")
+  app.add_option("--scalar", scalar, "float or double (default: float)")
       ->type_name("TYPE")
       ->check(CLI::IsMember({"float", "double"}));
   app.add_option("--threads", options.threads, "number of threads (default: all cores); results do not depend on it")
@@ -99,7 +111,12 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
     exit_code = 2;
     return std::nullopt;
   }
-  options.single_precision = scalar == "float";
+  const auto named =
+      std::find_if(qualities.begin(), qualities.end(), [&](const Quality& q) { return q.name == quality; });
+  if (spacing->empty()) options.spacing = named->spacing;
+  // The step that belongs to a quality belongs to its spacing.
+  if (time_step->empty()) options.time_step = spacing->empty() ? named->time_step : 0;
+  options.single_precision = scalar.empty() ? named->single_precision : scalar == "float";
   options.constrictors = !without_h;
   options.frames = !no_frames;
   if (options.threads == 0) options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -29,6 +29,7 @@ namespace {
 
 constexpr double sample_interval = 1e-3;      // s, simulated
 constexpr double checkpoint_interval = 0.02;  // s, simulated
+constexpr double limit_interval = 0.1;        // s, simulated
 constexpr double volume_time = 1.667;         // s, when the paper states det F
 
 /// Times k * interval that come one after the other; `due` is true once for each.
@@ -120,7 +121,8 @@ class Run {
     start_ = std::chrono::steady_clock::now();
     const auto first_step = simulation_.steps();
     const double dt = simulation_.time_step();
-    Every sample(sample_interval, dt), frame(options_.frame_interval, dt), keep(checkpoint_interval, dt);
+    Every sample(sample_interval, dt), frame(options_.frame_interval, dt), keep(checkpoint_interval, dt),
+        limit(limit_interval, dt);
     if (before) (void)sample.due(*before), (void)frame.due(*before), (void)keep.due(*before);
     Progress progress(std::cerr, {.name = std::string(chosen_.name),
                                   .start = simulation_.time(),
@@ -142,6 +144,7 @@ class Run {
         if (frames && frame.due(time)) add_frame(*frames, simulation_, scene_);
         if (keep.due(time) && simulation_.steps() > first_step) checkpoint();
         if (time >= options_.until - dt / 2) break;
+        if (limit.due(time)) watch_step(time);
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
         if (simulation_.steps() % 32 == 0) check(simulation_, scene_);
@@ -167,11 +170,24 @@ class Run {
   }
   void describe_step() const {
     const auto& limit = simulation_.step_limit();
-    const auto organ = name(scene_.organ[limit.particle]);
+    const double share = simulation_.time_step() / limit.limit;
     std::cerr << hmps::message(chosen_.name, ": ", summary_.particles_free, " free and ", summary_.particles_control,
-                               " control particles; step ", 1e6 * simulation_.time_step(), " us of at most ",
-                               1e6 * limit.limit, " us at rest, which particle ", limit.particle, " (", organ,
-                               ") sets\n");
+                               " control particles; step ", 1e6 * simulation_.time_step(), " us, ",
+                               std::round(100 * share), " % of the limit at rest; ", simulation_.limited_by(), " (",
+                               name(scene_.organ[limit.particle]), ")\n");
+  }
+  /// Keeps the smallest limit of the step, and warns where the step is beyond it.
+  void watch_step(double time) {
+    simulation_.refresh_step_limit();
+    const auto& now = simulation_.step_limit();
+    auto& least = summary_.least_step_limit;
+    const bool was_stable = !least || least->limit >= simulation_.time_step();
+    if (!least || now.limit < least->limit)
+      least = LeastStep{now.limit, time, now.particle, std::string(name(scene_.organ[now.particle]))};
+    if (was_stable && least->limit < simulation_.time_step())
+      std::cerr << hmps::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * simulation_.time_step(),
+                                 " us is beyond the limit of ", 1e6 * least->limit, " us that particle ",
+                                 least->particle, " (", least->organ, ") sets; try a smaller --time-step\n");
   }
 
   void measure(const Sample& now) {
@@ -216,6 +232,9 @@ class Run {
     std::vector<double> volume;
     if (const auto& J = summary_.det_f) volume = {J->mean, J->share_within_0_98_1_02, J->min, J->max};
     state.set("det F", volume);
+    std::vector<double> least;
+    if (const auto& l = summary_.least_step_limit) least = {l->limit, l->time, static_cast<double>(l->particle)};
+    state.set("least step limit", least);
     state.set("seconds", std::array{seconds(), contact_seconds_ + simulation_.contact_seconds()});
     state.save(checkpoint_file());
   }
@@ -232,6 +251,10 @@ class Run {
     const auto seconds = state->get<double>("seconds");
     wall_before_ = seconds[0], contact_seconds_ = seconds[1];
     if (const auto J = state->get<double>("det F"); J.size() == 4) summary_.det_f = DetF{J[0], J[1], J[2], J[3]};
+    if (const auto l = state->get<double>("least step limit"); l.size() == 3) {
+      const auto particle = static_cast<std::uint64_t>(l[2]);
+      summary_.least_step_limit = LeastStep{l[0], l[1], particle, std::string(name(scene_.organ.at(particle)))};
+    }
     simulation_.resume(state->step);
     return state->time;
   }

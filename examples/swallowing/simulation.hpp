@@ -13,8 +13,11 @@
 #include <hmps/neighbours/lattice_bonds.hpp>
 #include <hmps/stabilise/artificial.hpp>
 #include <hmps/time/stable_step.hpp>
+#include <hmps/time/step_causes.hpp>
 #include <hmps/time/symplectic_euler.hpp>
 #include <hmps/viscosity/viscous.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "materials.hpp"
@@ -51,14 +54,14 @@ class Simulation {
         force_(hmps::internal_force(bonds_, hmps::record(body(gradients())), hmps::elastic(Tissue{this}),
                                     hmps::artificial(Stabiliser{this}),
                                     hmps::viscous(materials.density, materials.kinematic_viscosity))),
-        step_limit_(limit()),
+        step_limit_(limit_at_rest()),
         time_step_(settings.time_step > 0 ? settings.time_step : chosen_step(settings)),
         penalty_(chosen_penalty(settings)),
         contact_({.spacing = scene.spacing,
                   .density = materials.density,
                   .friction = settings.friction,
                   .stiffness = hmps::PenaltyStiffness::fixed(penalty_)}) {
-    x_ = scene.reference;
+    limited_by_ = hmps::describe(step_limit_, causes(), hmps::relative_support(bonds_, step_limit_.particle));
     force_.restrict_to([&scene](std::size_t i) { return scene.region[i] < 0; });
     for (std::size_t i = 0; i < x_.size(); ++i) gradients().set(i, Eigen::Matrix3d::Identity());
     add_contacts();
@@ -89,8 +92,13 @@ class Simulation {
   [[nodiscard]] double time() const { return static_cast<double>(steps_) * time_step_; }
   [[nodiscard]] double time_step() const { return time_step_; }
   [[nodiscard]] double penalty() const { return penalty_; }
-  /// The largest stable step of the body without contact, and the particle that limits it.
+  /// The largest stable step of the body without contact, and the particle that limits it: at rest, or in the state of
+  /// the latest refresh.
   [[nodiscard]] const hmps::StableStep& step_limit() const { return step_limit_; }
+  /// Takes the limit of the present state, from the mode found last. The gradients mean nothing until the next step.
+  void refresh_step_limit() { step_limit_ = limit(step_limit_.mode); }
+  /// The limit at rest in words: the particle that sets it, and which forces.
+  [[nodiscard]] const std::string& limited_by() const { return limited_by_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] double contact_seconds() const { return contact_seconds_; }
   [[nodiscard]] const hmps::ContactReport<S>& contact_report() const { return report_; }
@@ -153,14 +161,34 @@ class Simulation {
     return young;
   }
 
-  [[nodiscard]] hmps::StableStep limit() {
-    std::vector<std::uint8_t> moves(scene_->elastic_count);
-    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = scene_->region[i] < 0 ? 1 : 0;
+  [[nodiscard]] hmps::StableStep limit_at_rest() {
     x_ = scene_->reference;
-    return hmps::stable_step([this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); },
-                             body(positions()), body(velocities()), materials_.density,
-                             {.spacing = scene_->spacing, .moves = [moves](std::size_t i) { return moves[i] != 0; }},
+    return limit({});
+  }
+  /// The internal force of the body as `stable_step` calls it.
+  [[nodiscard]] auto probed() {
+    return [this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); };
+  }
+  [[nodiscard]] hmps::StableStep limit(const std::vector<double>& start) {
+    const auto moves = [this](std::size_t i) { return scene_->region[i] < 0; };
+    return hmps::stable_step(probed(), body(positions()), body(velocities()), materials_.density,
+                             {.spacing = scene_->spacing, .seed = steps_ + 1, .start = start, .moves = moves},
                              execute_);
+  }
+  /// What limits the step at rest. Viscosity is all that damps; of the rest, the stabiliser is what goes without it.
+  [[nodiscard]] std::vector<hmps::StepCause> causes() {
+    const double ratio = std::exchange(materials_.stabiliser_ratio, 0);
+    auto without = probed();
+    auto found = hmps::step_causes(step_limit_, body(positions()), body(velocities()), materials_.density,
+                                   {.spacing = scene_->spacing}, hmps::NamedForce{"elasticity", without});
+    materials_.stabiliser_ratio = ratio;
+    hmps::StepCause& elasticity = found.front();
+    const double viscosity = step_limit_.limit * step_limit_.damping / 2;
+    const double stabiliser = 1 - elasticity.share;
+    elasticity.share -= viscosity;
+    found.push_back({.name = "stabiliser", .share = stabiliser});
+    found.push_back({.name = "viscosity", .share = viscosity});
+    return found;
   }
   /// A whole number of steps in a millisecond, so that samples and pictures fall on steps.
   [[nodiscard]] double chosen_step(const Settings& settings) const {
@@ -218,12 +246,13 @@ class Simulation {
                                 hmps::record(std::declval<hmps::MatrixView<S, 3>>()),
                                 hmps::elastic(std::declval<Tissue>()), hmps::artificial(std::declval<Stabiliser>()),
                                 hmps::viscous(1.0, 1.0))) force_;
+  std::uint64_t steps_ = 0;
   hmps::StableStep step_limit_;
+  std::string limited_by_;
   double time_step_, penalty_;
   hmps::MetaballContact<S, 3> contact_;
   std::vector<hmps::ControlRegion<double, 3>> regions_;
   hmps::ContactReport<S> report_;
-  std::uint64_t steps_ = 0;
   double contact_seconds_ = 0;
 };
 

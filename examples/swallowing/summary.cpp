@@ -33,10 +33,14 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
              {"share_within_0_98_1_02", s.det_f->share_within_0_98_1_02},
              {"min", s.det_f->min},
              {"max", s.det_f->max}};
+  Json least = nullptr;
+  if (const auto& l = s.least_step_limit)
+    least = {{"limit", l->limit}, {"time", l->time}, {"particle", l->particle}, {"organ", l->organ}};
   const Json json = {{"case", s.case_name},
                      {"spacing", s.spacing},
                      {"time_step", s.time_step},
                      {"time_step_limit", s.time_step_limit},
+                     {"least_step_limit", least},
                      {"steps", s.steps},
                      {"time", s.time},
                      {"scalar", s.scalar},
@@ -66,6 +70,9 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.spacing = number(json, "spacing");
     s.time_step = number(json, "time_step");
     s.time_step_limit = number(json, "time_step_limit");
+    if (const auto l = json.find("least_step_limit"); l != json.end() && !l->is_null())
+      s.least_step_limit = LeastStep{number(*l, "limit"), number(*l, "time"), l->at("particle").get<std::uint64_t>(),
+                                     l->at("organ").get<std::string>()};
     s.steps = json.at("steps").get<std::uint64_t>();
     s.time = number(json, "time");
     s.scalar = json.at("scalar").get<std::string>();

@@ -16,6 +16,14 @@ struct DetF {
   double max = 0;
 };
 
+/// How near to instability a case came: the smallest of the estimates that were made of the largest stable step.
+struct LeastStep {
+  double limit = 0;            ///< s, without contact
+  double time = 0;             ///< s, when that was
+  std::uint64_t particle = 0;  ///< that set it
+  std::string organ;           ///< of that particle
+};
+
 /// What is worth knowing of a case that was run: the content of its summary.json, under these names.
 struct Summary {
   std::string case_name;  ///< "case" in the file
@@ -23,9 +31,10 @@ struct Summary {
   int threads = 1;
   double spacing = 0;  ///< m
   double friction = 0;
-  double penalty = 0;          ///< k in N/m4
-  double time_step = 0;        ///< s
-  double time_step_limit = 0;  ///< s, the estimate of the largest stable step
+  double penalty = 0;                         ///< k in N/m4
+  double time_step = 0;                       ///< s
+  double time_step_limit = 0;                 ///< s, the estimate of the largest stable step at rest
+  std::optional<LeastStep> least_step_limit;  ///< the smallest such estimate met in the run
   std::uint64_t steps = 0;
   double time = 0;  ///< s, simulated
   std::uint64_t particles_free = 0;

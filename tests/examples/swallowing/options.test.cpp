@@ -34,12 +34,32 @@ TEST(Options, DefaultsAreAllCasesAtTheDefaultSpacing) {
   EXPECT_EQ(parsed.options->spacing, 2.4e-3);
   EXPECT_EQ(parsed.options->time_step, 0);
   EXPECT_EQ(parsed.options->until, 2.05);
-  EXPECT_FALSE(parsed.options->single_precision);
+  EXPECT_TRUE(parsed.options->single_precision);
   EXPECT_FALSE(parsed.options->friction);
   EXPECT_TRUE(parsed.options->frames);
   EXPECT_TRUE(parsed.options->constrictors);
   EXPECT_FALSE(parsed.options->resume);
   EXPECT_GE(parsed.options->threads, 1);
+}
+
+TEST(Options, QualityNamesSpacingStepAndScalar) {
+  double finer = 1;
+  for (const swallowing::Quality& quality : swallowing::qualities) {
+    const std::string name(quality.name);
+    const auto parsed = parse({"--quality", name.c_str()});
+    ASSERT_TRUE(parsed.options) << parsed.err;
+    const Options& o = *parsed.options;
+    EXPECT_EQ((swallowing::Quality{quality.name, o.spacing, o.time_step, o.single_precision}), quality);
+    EXPECT_LT(o.spacing, finer);
+    finer = o.spacing;
+  }
+  const auto overruled = parse({"--scalar", "double", "--quality", "paper", "--spacing", "1.8e-3"});
+  ASSERT_TRUE(overruled.options) << overruled.err;
+  EXPECT_FALSE(overruled.options->single_precision);
+  EXPECT_EQ(overruled.options->spacing, 1.8e-3);
+  EXPECT_EQ(overruled.options->time_step, 0) << "the step of another spacing was taken";
+  EXPECT_EQ(parse({"--quality", "paper", "--time-step", "0"}).options->time_step, 0);
+  EXPECT_NE(parse({"--quality", "best"}).err.find("{draft,standard,paper,fine}"), std::string::npos);
 }
 
 TEST(Options, EveryOptionArrives) {
