@@ -98,7 +98,8 @@ class InternalForce {
 
   /// Adds to the velocities `v` (m/s) what the forces give in the time `dt` (s), \paper{2}: what evaluation and `kick`
   /// do one after the other, in the last sweep itself, so that no array of forces is written or read. Density `rho` in
-  /// kg/m3, a number or a `ScalarView`. Throws `InputError` as those two do.
+  /// kg/m3, a number or a `ScalarView`. After `restrict_to`, velocities of particles that do not follow the force mean
+  /// nothing until they are prescribed. Throws `InputError` as those two do.
   template <class X, class V, PerParticle Rho, Executor E = Serial>
   void kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& rho, double dt, const E& execute = {}) {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
