@@ -71,10 +71,12 @@ namespace detail {
   text += '\n' + wrapped(settings);
   if (!scene.known) text += '\n' + wrapped("Reference: " + scene.difference(*scene.reference, standard.settings) + ".");
   text += "\n![Error against cost of all runs, and the fronts](" + picture + ")\n\n### What to choose\n\n" +
-          detail::list(target_rules(scene, sweep)) + "\n### What refinement costs\n\n" +
-          detail::list(halving_rules(scene, sweep)) + "\n### What each setting does\n\n" +
-          detail::list(single_rules(scene, sweep)) + "\n### One parameter at a time\n\n" +
-          detail::head(scene, "differs from the standard by") + detail::row(scene, "nothing", standard);
+          detail::list(target_rules(scene, sweep));
+  if (const auto rules = halving_rules(scene, sweep); !rules.empty())
+    text += "\n### What refinement costs\n\n" + detail::list(rules);
+  text += "\n### What each setting does\n\n" + detail::list(single_rules(scene, sweep)) +
+          "\n### One parameter at a time\n\n" + detail::head(scene, "differs from the standard by") +
+          detail::row(scene, "nothing", standard);
   for (const Parameter& p : scene.parameters)
     for (const Value& value : p.values)
       if (value != p.standard)

@@ -30,7 +30,7 @@ enum class Verdict {
   save,   ///< an error is larger and none smaller, for less
   leave,  ///< an error is larger and none smaller, and it is not cheaper
   mixed,  ///< one error is larger, another smaller
-  same    ///< neither errors nor time differ by more than a tenth
+  same    ///< neither errors nor cost differ by more than a tenth
 };
 
 /// Whether the error of quantity `q` is smaller (-1), larger (1) or as large as `beside`. What differs by less than a
@@ -41,7 +41,13 @@ enum class Verdict {
   return now > 1.1 * then && now - then > least ? 1 : 0;
 }
 
-/// Compares all headline errors and the time; times that differ by less than a tenth count as equal.
+/// The cost of a run over that of another: its time, or its particle-steps where nothing is timed more than once.
+[[nodiscard]] inline double relative_cost(const Scene& scene, const Trial& run, const Trial& beside) {
+  return scene.repeats > 0 ? run.relative_seconds / beside.relative_seconds
+                           : run.outcome.particle_steps / beside.outcome.particle_steps;
+}
+
+/// Compares all headline errors and the cost; costs that differ by less than a tenth count as equal.
 [[nodiscard]] inline Verdict judge(const Scene& scene, const Trial& run, const Trial& beside) {
   bool better = false, worse = false;
   for (std::size_t q = 0; q < scene.quantities.size(); ++q) {
@@ -49,12 +55,12 @@ enum class Verdict {
     better = better || compare(scene, run, beside, q) < 0;
     worse = worse || compare(scene, run, beside, q) > 0;
   }
-  const double time = run.relative_seconds / beside.relative_seconds;
+  const double cost = relative_cost(scene, run, beside);
   if (better && worse) return Verdict::mixed;
-  if (worse) return time < 0.9 ? Verdict::save : Verdict::leave;
-  if (time < 0.9) return Verdict::take;
-  if (better) return time > 1.1 ? Verdict::buy : Verdict::take;
-  return time > 1.1 ? Verdict::leave : Verdict::same;
+  if (worse) return cost < 0.9 ? Verdict::save : Verdict::leave;
+  if (cost < 0.9) return Verdict::take;
+  if (better) return cost > 1.1 ? Verdict::buy : Verdict::take;
+  return cost > 1.1 ? Verdict::leave : Verdict::same;
 }
 
 [[nodiscard]] inline std::string name(Verdict verdict) {
@@ -137,8 +143,7 @@ enum class Verdict {
         for (const Trial& run : sweep.runs)
           if (scene.same_problem(run.settings) && holds(scene, sweep, run, q, limit) &&
               finest(scene, sweep, run) != confirmed &&
-              (best == nullptr ||
-               (finest(scene, sweep, *best) != confirmed && run.relative_seconds < 0.9 * best->relative_seconds)))
+              (best == nullptr || (finest(scene, sweep, *best) != confirmed && relative_cost(scene, run, *best) < 0.9)))
             best = &run;
       if (best == nullptr) break;
       if (best == last) lines.pop_back();  // the stricter limit says more
