@@ -29,7 +29,7 @@ namespace {
 
 constexpr double sample_interval = 1e-3;      // s, simulated
 constexpr double checkpoint_interval = 0.02;  // s, simulated
-constexpr double limit_interval = 0.1;        // s, simulated
+constexpr double limit_interval = 0.05;       // s, simulated
 constexpr double volume_time = 1.667;         // s, when the paper states det F
 
 /// Times k * interval that come one after the other; `due` is true once for each.
@@ -123,7 +123,7 @@ class Run {
     const double dt = simulation_.time_step();
     Every sample(sample_interval, dt), frame(options_.frame_interval, dt), keep(checkpoint_interval, dt),
         limit(limit_interval, dt);
-    if (before) (void)sample.due(*before), (void)frame.due(*before), (void)keep.due(*before);
+    if (before) (void)sample.due(*before), (void)frame.due(*before), (void)keep.due(*before), (void)limit.due(*before);
     Progress progress(std::cerr, {.name = std::string(chosen_.name),
                                   .start = simulation_.time(),
                                   .until = options_.until,
@@ -142,9 +142,9 @@ class Run {
           snap(snapshots, time);
         }
         if (frames && frame.due(time)) add_frame(*frames, simulation_, scene_);
+        if (limit.due(time)) watch_step(time);
         if (keep.due(time) && simulation_.steps() > first_step) checkpoint();
         if (time >= options_.until - dt / 2) break;
-        if (limit.due(time)) watch_step(time);
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
         if (simulation_.steps() % 32 == 0) check(simulation_, scene_);
@@ -235,6 +235,7 @@ class Run {
     std::vector<double> least;
     if (const auto& l = summary_.least_step_limit) least = {l->limit, l->time, static_cast<double>(l->particle)};
     state.set("least step limit", least);
+    state.set("limiting mode", simulation_.step_limit().mode);
     state.set("seconds", std::array{seconds(), contact_seconds_ + simulation_.contact_seconds()});
     state.save(checkpoint_file());
   }
@@ -255,7 +256,7 @@ class Run {
       const auto particle = static_cast<std::uint64_t>(l[2]);
       summary_.least_step_limit = LeastStep{l[0], l[1], particle, std::string(name(scene_.organ.at(particle)))};
     }
-    simulation_.resume(state->step);
+    simulation_.resume(state->step, state->get<double>("limiting mode"));
     return state->time;
   }
   [[nodiscard]] std::vector<std::array<double, 3>> positions() {

@@ -136,11 +136,13 @@ class Simulation {
   [[nodiscard]] Tissue tissue() const { return {this}; }
   [[nodiscard]] Stabiliser stabiliser() const { return {this}; }
 
-  /// The state that the next step starts from: with it a run goes on to the same bits.
+  /// The state that the next step starts from: with it, and the mode that limits the step, a run goes on to the same
+  /// bits.
   [[nodiscard]] std::vector<Eigen::Vector3d>& position_array() { return x_; }
   [[nodiscard]] std::vector<S>& velocity_array() { return v_; }
-  void resume(std::uint64_t steps) {
+  void resume(std::uint64_t steps, std::vector<double> limiting_mode) {
     steps_ = steps;
+    step_limit_.mode = std::move(limiting_mode);
     contact_.refresh();
   }
 

@@ -36,7 +36,7 @@ with tempfile.TemporaryDirectory() as name:
     run = ["--case", "X1", "--until", "0.002", "--no-frames", "--out", folder / "run"]
     subprocess.run([program, *map(str, run)], check=True, capture_output=True, timeout=300)
     refused([*run, "--resume", "--friction", "0.25"], "checkpoint.bin", "friction", "--resume")
-    refused([*run, "--resume", "--scalar", "float"], "scalar", "double", "float")
+    refused([*run, "--resume", "--scalar", "double"], "scalar", "float", "double")
     checkpoint = folder / "run/X1/checkpoint.bin"
     data = bytearray(checkpoint.read_bytes())
     data[len(data) // 2] ^= 1
