@@ -167,30 +167,21 @@ class Simulation {
     x_ = scene_->reference;
     return limit({});
   }
-  /// The internal force of the body as `stable_step` calls it.
-  [[nodiscard]] auto probed() {
-    return [this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); };
-  }
   [[nodiscard]] hmps::StableStep limit(const std::vector<double>& start) {
     const auto moves = [this](std::size_t i) { return scene_->region[i] < 0; };
-    return hmps::stable_step(probed(), body(positions()), body(velocities()), materials_.density,
+    return hmps::stable_step([this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); },
+                             body(positions()), body(velocities()), materials_.density,
                              {.spacing = scene_->spacing, .seed = steps_ + 1, .start = start, .moves = moves},
                              execute_);
   }
-  /// What limits the step at rest. Viscosity is all that damps; of the rest, the stabiliser is what goes without it.
+  /// Which of the forces limit the step at rest.
   [[nodiscard]] std::vector<hmps::StepCause> causes() {
-    const double ratio = std::exchange(materials_.stabiliser_ratio, 0);
-    auto without = probed();
-    auto found = hmps::step_causes(step_limit_, body(positions()), body(velocities()), materials_.density,
-                                   {.spacing = scene_->spacing}, hmps::NamedForce{"elasticity", without});
-    materials_.stabiliser_ratio = ratio;
-    hmps::StepCause& elasticity = found.front();
-    const double viscosity = step_limit_.limit * step_limit_.damping / 2;
-    const double stabiliser = 1 - elasticity.share;
-    elasticity.share -= viscosity;
-    found.push_back({.name = "stabiliser", .share = stabiliser});
-    found.push_back({.name = "viscosity", .share = viscosity});
-    return found;
+    auto elasticity = hmps::internal_force(bonds_, hmps::elastic(tissue()));
+    auto stabiliser = hmps::internal_force(bonds_, hmps::artificial(this->stabiliser()));
+    auto viscosity = hmps::internal_force(bonds_, hmps::viscous(materials_.density, materials_.kinematic_viscosity));
+    return hmps::step_causes(step_limit_, body(positions()), body(velocities()), materials_.density,
+                             {.spacing = scene_->spacing}, hmps::NamedForce{"elasticity", elasticity},
+                             hmps::NamedForce{"stabiliser", stabiliser}, hmps::NamedForce{"viscosity", viscosity});
   }
   /// A whole number of steps in a millisecond, so that samples and pictures fall on steps.
   [[nodiscard]] double chosen_step(const Settings& settings) const {

@@ -37,6 +37,10 @@ with tempfile.TemporaryDirectory() as name:
     subprocess.run([program, *map(str, run)], check=True, capture_output=True, timeout=300)
     refused([*run, "--resume", "--friction", "0.25"], "checkpoint.bin", "friction", "--resume")
     refused([*run, "--resume", "--scalar", "double"], "scalar", "float", "double")
+    fast = ["--case", "X1", "--until", "0.0005", "--no-frames", "--out", folder / "fast", "--time-step", "4.5e-5"]
+    warned = subprocess.run([program, *map(str, fast)], check=True, capture_output=True, text=True, timeout=300)
+    if "beyond the limit" not in warned.stderr or "esophagus" not in warned.stderr:
+        sys.exit(f"a step beyond the limit went without a warning: {warned.stderr}")
     checkpoint = folder / "run/X1/checkpoint.bin"
     data = bytearray(checkpoint.read_bytes())
     data[len(data) // 2] ^= 1
