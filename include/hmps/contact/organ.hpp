@@ -24,7 +24,7 @@ struct Organ {
   std::span<const Index> slaves{};   ///< The outermost layer: what is kept out of walls.
   std::span<const Index> masters{};  ///< The wall: the two outermost layers carry all of Z above y = 0.
   /// Whether a particle follows a forced displacement, so that no force moves it (default: none).
-  /// Only `CorrectedFriction` and damping ask for it.
+  /// `CorrectedFriction`, damping and `MetaballContact::kick` ask for it.
   std::function<bool(Index)> prescribed{};
 };
 

@@ -125,8 +125,8 @@ template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
 }  // namespace detail
 
 /// Energy of Kondo's stabiliser, whose gradient is \paper{19}: sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
-/// with C_i by \paper{20}. Its size beside the strain energy tells how much of the
-/// motion the deformation gradients do not see.
+/// with C_i by \paper{20}, the misfits taken in the scalar of the bonds, as the force takes them. Its size beside the
+/// strain energy tells how much of the motion the deformation gradients do not see.
 ///
 /// @param bonds    `BondList` or `LatticeBonds` of the body
 /// @param x        positions in m

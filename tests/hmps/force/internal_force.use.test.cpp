@@ -240,10 +240,11 @@ TEST(InternalForce, KicksAsForceAndKickDo) {
     force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(f));
     hmps::kick(hmps::vectors(expected), hmps::vectors(f), hmps::scalars(rho), dt);
     force.kick(hmps::vectors(scene.x), hmps::vectors(v), hmps::scalars(rho), dt);
-    double gain = 0;
-    for (std::size_t i = 0; i < n; ++i) gain = std::max(gain, (expected[i] - scene.v[i]).norm());
-    EXPECT_GT(gain, 0);
-    EXPECT_LE(largest_difference<3>(v, [&](std::size_t i) { return expected[i]; }), 1e-15 + 1e-6 * gain);
+    // The same bits but for what a compiler contracts in one loop and not in the other.
+    double speed = 0;
+    for (const auto& each : expected) speed = std::max(speed, each.norm());
+    EXPECT_GT(largest_difference<3>(expected, [&](std::size_t i) { return scene.v[i]; }), 1e-3 * speed);
+    EXPECT_LE(largest_difference<3>(v, [&](std::size_t i) { return expected[i]; }), 4e-16 * speed);
 
     std::array<std::vector<float>, 3> columns;
     for (auto& column : columns) column.resize(n);
@@ -253,8 +254,8 @@ TEST(InternalForce, KicksAsForceAndKickDo) {
     for (std::size_t i = 0; i < n; i += 2)  // of the density 1500 above
       for (std::size_t c = 0; c < 3; ++c) {
         const auto d = static_cast<Eigen::Index>(c);
-        EXPECT_NEAR(columns[c][i], scene.v[i][d] + 1.5 * (expected[i][d] - scene.v[i][d]),
-                    1e-6 * (gain + scene.v[i].norm()));
+        // Rounded to float twice.
+        EXPECT_NEAR(columns[c][i], scene.v[i][d] + 1.5 * (expected[i][d] - scene.v[i][d]), 1e-7 * speed);
       }
   }
 }
