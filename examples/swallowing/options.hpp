@@ -22,8 +22,8 @@ struct Quality {
   bool operator==(const Quality&) const = default;
 };
 
-/// From the cheapest, which is the default, to the most expensive. Sheets have two, three, four and five particles;
-/// single precision moves no fold time by more than 0.3 ms.
+/// From the cheapest, which is the default, to the most expensive. Single precision moves no fold time by more than 0.3
+/// ms.
 inline constexpr std::array qualities{Quality{"draft", 2.4e-3, 0, true}, Quality{"standard", 1.8e-3, 0, true},
                                       Quality{"paper", 1.2e-3, 1e-5, true}, Quality{"fine", 1e-3, 0, true}};
 inline constexpr Quality default_quality = qualities[0];
