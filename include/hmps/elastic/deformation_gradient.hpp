@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -22,12 +23,16 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   const bool consecutive = blocks.consecutive(block);
   for (int c = 0; c < D; ++c) {
     K* target = slots[static_cast<std::size_t>(c)] + first;
-    if (consecutive && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
-      const T* source = view.base(c) + blocks.particle(first);
-      for (std::size_t l = 0; l < width; ++l) target[l] = value(source[l], first + l, c);
-    } else if (consecutive) {
+    if (consecutive) {
+      Lanes<K> staged;  // no slot, for all that the compiler knows, so that nothing is read after it was written
       const std::size_t i = blocks.particle(first);
-      for (std::size_t l = 0; l < width; ++l) target[l] = value(view(i + l, c), first + l, c);
+      if (view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
+        const T* source = view.base(c) + i;
+        for (std::size_t l = 0; l < width; ++l) staged.lane[l] = value(source[l], first + l, c);
+      } else {
+        for (std::size_t l = 0; l < width; ++l) staged.lane[l] = value(view(i + l, c), first + l, c);
+      }
+      store(target, staged);
     } else {
       for (std::size_t l = 0; l < width; ++l) {
         const Index i = blocks.particle(first + l);
@@ -81,7 +86,10 @@ HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const Vi
     if (consecutive) {
       const std::size_t i = blocks.particle(first);
       T* target = view.base(c) + i;
-      for (std::size_t l = 0; l < width; ++l) put(target[l], numbers.lane[l], i + l);
+      T entries[width];  // a copy, for the same reason as in `stage`
+      std::copy_n(target, width, entries);
+      for (std::size_t l = 0; l < width; ++l) put(entries[l], numbers.lane[l], i + l);
+      std::copy_n(entries, width, target);
     } else {
       for (std::size_t l = 0; l < width; ++l) {
         const Index i = blocks.particle(first + l);

@@ -40,6 +40,12 @@ class BlockOfParticles {
   template <class P>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& parameter) const {
     require_size(parameter, blocks_.size(), "parameters");
+    if (blocks_.consecutive(block_) && parameter.stride() == static_cast<std::ptrdiff_t>(sizeof(P))) {
+      const P* const first = parameter.base(0) + particle(0);
+      T result;
+      for (int l = 0; l < T::width; ++l) result.lane[l] = static_cast<K>(first[l]);
+      return result;
+    }
     return gather([&](Index i) { return parameter[i]; });
   }
   /// A parameter of each particle's body: `table[body[i]]`. Throws `InputError` if the bodies have
@@ -107,10 +113,10 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DilatationTerm<Term, K, D>;
 
-/// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows
-/// with `row.gather(values)` (a value of the neighbour in each lane), `row.offset(c)` (component c of
-/// r0), `row.along(c)` (false where that is zero for all lanes and may be skipped), the constant `skips` (whether it
-/// ever is) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and `LatticeBonds`.
+/// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows, of one type or
+/// of several, with `row.gather(values)` (a value of the neighbour in each lane), `row.offset(c)` (component c of r0),
+/// `row.along(c)` (false where that is zero for all lanes and may be skipped), the constant `skips` (whether it ever
+/// is) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> && requires(const B& bonds) {
   bonds.for_each_row(std::size_t{0}, [](const auto&) {});

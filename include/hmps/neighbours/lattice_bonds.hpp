@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "hmps/neighbours/blocks.hpp"
@@ -121,7 +123,8 @@ class LatticeBonds : public Blocks<K, D> {
   template <class Visit>
   void for_each_bond(std::size_t i, Visit&& visit) const {
     const std::size_t slot = this->slot(i), l = slot % width;
-    for (std::size_t row = first_run_[slot / width]; row < first_run_[slot / width + 1]; ++row) {
+    const std::size_t group = slot / width * directions;
+    for (std::size_t row = first_run_[group]; row < first_run_[group + directions]; ++row) {
       const Run& run = runs_[row];
       if ((run.lanes >> l & 1u) == 0) continue;
       const auto neighbour = static_cast<std::size_t>(run.first + static_cast<std::ptrdiff_t>(l));
@@ -132,44 +135,57 @@ class LatticeBonds : public Blocks<K, D> {
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::size_t);
+    return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::uint32_t);
   }
 
   /// The slot from which on the last of the rows of `block` reads.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
-    return static_cast<std::size_t>(std::max(runs_[first_run_[block + 1] - 1].first, 0));
+    return static_cast<std::size_t>(std::max(runs_[first_run_[(block + 1) * directions] - 1].first, 0));
   }
 
   /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot
-  /// `first + l`.
+  /// `first + l`, and r0 has components along `Axes` alone (bit c for component c).
+  template <unsigned Axes>
   struct Row {
     const K* r0;
     Lanes<K> w;
     std::ptrdiff_t first;
-    std::uint32_t axes;
 
     static constexpr bool skips = true;
-    [[nodiscard]] HMPS_INLINE bool along(int c) const { return (axes >> c & 1u) != 0; }
+    [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
     [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const { return load(values + first); }
     [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
     [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
   };
 
-  /// Calls `visit(row)` for each row of bonds of `block`.
+  /// Calls `visit(row)` for each row of bonds of `block`, those along the same axes after each other, with a type of
+  /// row for each set of axes: what a bond along few axes need not compute is known to the compiler.
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
-    for (std::size_t row = first_run_[block]; row < first_run_[block + 1]; ++row) {
-      const Run& run = runs_[row];
-      const Offset& offset = offset_[run.offset];
-      visit(Row{offset.r0, spread(run.lanes, offset.w), run.first, offset.axes});
-    }
+    for_each_row(block, visit, std::make_integer_sequence<unsigned, directions>{});
   }
 
  private:
+  /// Sets of axes that a bond can be along; that with the bits b stands at place b - 1.
+  static constexpr unsigned directions = (1u << D) - 1;
+
+  template <class Visit, unsigned... Places>
+  HMPS_INLINE void for_each_row(std::size_t block, Visit& visit, std::integer_sequence<unsigned, Places...>) const {
+    (for_each_row_along<Places>(block, visit), ...);
+  }
+  template <unsigned Place, class Visit>
+  HMPS_INLINE void for_each_row_along(std::size_t block, Visit& visit) const {
+    const std::size_t group = block * directions + Place;
+    const Run* const end = runs_.data() + first_run_[group + 1];
+    for (const Run* run = runs_.data() + first_run_[group]; run != end; ++run) {
+      const Offset& offset = offset_[run->offset];
+      visit(Row<Place + 1>{offset.r0, spread(run->lanes, offset.w), run->first});
+    }
+  }
+
   struct Offset {
     K r0[D];
     K w;
-    std::uint32_t axes;  ///< Bit c is set if component c of r0 is not zero.
   };
   struct Run {
     std::int32_t first;
@@ -195,15 +211,17 @@ class LatticeBonds : public Blocks<K, D> {
     for (std::size_t s = 0; s < n; ++s) keys[s] = cells.key(cells.cell[cells.order[s]]);
 
     struct Placed {
-      std::size_t block;
+      std::size_t group;
       Run run;
     };
     std::vector<Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
     auto near = cells_within(settings.radius_ratio);
-    // In the order of the slots, so that the sweeps go through memory in one direction.
-    std::sort(near.begin(), near.end(), [&](const auto& a, const auto& b) { return cells.key(a) < cells.key(b); });
+    // By the axes, then in the order of the slots, so that the sweeps go through memory in one direction.
+    std::sort(near.begin(), near.end(), [&](const auto& a, const auto& b) {
+      return std::pair(axes_of(a), cells.key(a)) < std::pair(axes_of(b), cells.key(b));
+    });
     for (const auto& cell : near) {
       Vector<double, D> r0;
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
@@ -212,11 +230,7 @@ class LatticeBonds : public Blocks<K, D> {
       if (!(w > 0)) continue;
       inside.add(r0, w);
       Offset& offset = offset_.emplace_back();
-      offset.axes = 0;
-      for (int c = 0; c < D; ++c) {
-        offset.r0[c] = static_cast<K>(r0[c]);
-        if (cell[static_cast<std::size_t>(c)] != 0) offset.axes |= 1u << c;
-      }
+      for (int c = 0; c < D; ++c) offset.r0[c] = static_cast<K>(r0[c]);
       offset.w = static_cast<K>(w);
       const std::int64_t step = cells.key(cell);
       // Slots are sorted by key, so that the neighbours at one offset are met in order too.
@@ -225,23 +239,25 @@ class LatticeBonds : public Blocks<K, D> {
         if (t == n) break;
         if (keys[t] != keys[s] + step || !bonded(this->particle(s), this->particle(t))) continue;
         shapes[this->particle(s)].add(r0, w);
-        const std::size_t block = s / width;
+        const std::size_t group = s / width * directions + axes_of(cell) - 1;
         const auto first =
             static_cast<std::int32_t>(static_cast<std::ptrdiff_t>(t) - static_cast<std::ptrdiff_t>(s % width));
         const auto k = static_cast<std::uint16_t>(offset_.size() - 1);
-        if (placed.empty() || placed.back().block != block || placed.back().run.first != first ||
+        if (placed.empty() || placed.back().group != group || placed.back().run.first != first ||
             placed.back().run.offset != k)
-          placed.push_back({block, {first, 0, k}});
+          placed.push_back({group, {first, 0, k}});
         placed.back().run.lanes = static_cast<std::uint16_t>(placed.back().run.lanes | 1u << s % width);
       }
     }
+    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", n, " particles make ",
+            placed.size(), " runs, more than can be numbered; divide the body");
     // From offset by offset to block by block: a counting sort keeps the order of the offsets.
-    first_run_.assign(this->block_count() + 1, 0);
-    for (const Placed& p : placed) ++first_run_[p.block + 1];
+    first_run_.assign(this->block_count() * directions + 1, 0);
+    for (const Placed& p : placed) ++first_run_[p.group + 1];
     std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
     runs_.resize(placed.size());
-    std::vector<std::size_t> next(first_run_.begin(), first_run_.end() - 1);
-    for (const Placed& p : placed) runs_[next[p.block]++] = p.run;
+    std::vector<std::uint32_t> next(first_run_.begin(), first_run_.end() - 1);
+    for (const Placed& p : placed) runs_[next[p.group]++] = p.run;
 
     for (std::size_t i = 0; i < n; ++i) this->keep_shape(i, shapes[i]);
     this->share_shapes();
@@ -269,9 +285,17 @@ class LatticeBonds : public Blocks<K, D> {
     return cells;
   }
 
+  /// The axes along which a neighbour in `cell` lies.
+  [[nodiscard]] static unsigned axes_of(const typename detail::LatticeCells<D>::Cell& cell) {
+    unsigned axes = 0;
+    for (int c = 0; c < D; ++c)
+      if (cell[static_cast<std::size_t>(c)] != 0) axes |= 1u << c;
+    return axes;
+  }
+
   std::vector<Offset> offset_;
   std::vector<Run> runs_;
-  std::vector<std::size_t> first_run_;
+  std::vector<std::uint32_t> first_run_;  ///< Of each set of axes of each block.
 };
 
 }  // namespace hmps
