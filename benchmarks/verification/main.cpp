@@ -18,10 +18,10 @@ using namespace verification;
 namespace fs = std::filesystem;
 
 std::vector<Problem> problems() {
-  return {affine_patch(),   rigid_motion(),    uniaxial_stress(), equibiaxial_stress(), simple_shear(),
-          free_bar(),       cantilever(),      bonded_shear(),    bonded_compression(), torsion(),
-          long_wall(),      thick_cylinder(),  bending_column(),  oscillating_plate(),  elastic_flag(),
-          cooks_membrane(), sphere_on_block(), contact_patch(),   dispersion()};
+  return {affine_patch(), rigid_motion(),   uniaxial_stress(), equibiaxial_stress(), simple_shear(),
+          free_bar(),     rubber_bar(),     cantilever(),      bonded_shear(),       bonded_compression(),
+          torsion(),      long_wall(),      thick_cylinder(),  bending_column(),     oscillating_plate(),
+          elastic_flag(), cooks_membrane(), sphere_on_block(), contact_patch(),      dispersion()};
 }
 
 /// `seconds`: what the runs took.

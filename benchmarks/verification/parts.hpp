@@ -14,6 +14,7 @@ namespace verification {
 [[nodiscard]] Problem dispersion();
 [[nodiscard]] Problem torsion();   ///< torsion.cpp
 [[nodiscard]] Problem free_bar();  ///< vibration.cpp
+[[nodiscard]] Problem rubber_bar();
 [[nodiscard]] Problem oscillating_plate();
 [[nodiscard]] Problem elastic_flag();
 [[nodiscard]] Problem bending_column();
