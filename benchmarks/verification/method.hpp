@@ -16,16 +16,18 @@ namespace verification {
 /// terms.
 struct Method {
   std::string name;
-  bool shear_wave = false;       ///< E_hat = `shear_wave_modulus` instead of the paper's, Young's modulus
+  double over_shear = 0;         ///< E_hat over the shear modulus; 0: the paper's choice, Young's modulus
   int held = 1;                  ///< layers of held particles beyond a fixed face
   bool mean_dilatation = false;  ///< whether the bulk modulus is shared out by `split_bulk_modulus`
 };
 
 inline const Method paper{.name = "E_hat = E"};
-inline const Method shear_wave{.name = "E_hat = 4/3 mu", .shear_wave = true};
-inline const Method two_layers{.name = "E_hat = 4/3 mu, two layers held", .shear_wave = true, .held = 2};
+inline const Method shear_wave{.name = "E_hat = 4/3 mu", .over_shear = hmps::shear_wave_modulus(1.0)};
+inline const Method two_layers{
+    .name = "E_hat = 4/3 mu, two layers held", .over_shear = hmps::shear_wave_modulus(1.0), .held = 2};
 inline const Method mean_dilatation{
-    .name = "E_hat = 4/3 mu, mean dilatation", .shear_wave = true, .mean_dilatation = true};
+    .name = "E_hat = 4/3 mu, mean dilatation", .over_shear = hmps::shear_wave_modulus(1.0), .mean_dilatation = true};
+inline const Method soft{.name = "E_hat = mu, mean dilatation", .over_shear = 1, .mean_dilatation = true};
 /// All of them that differ from each other in a problem, by whether a face is fixed and the volume is stiff.
 inline const std::vector<Method> methods{paper, shear_wave};
 inline const std::vector<Method> clamped_methods{paper, shear_wave, two_layers};
@@ -42,7 +44,7 @@ template <class Law>
 /// E_hat of a method for a law.
 template <class Law>
 [[nodiscard]] double modulus_of(const Method& method, const Law& law) {
-  return method.shear_wave ? hmps::shear_wave_modulus(law.shear_modulus()) : young_of(law);
+  return method.over_shear > 0 ? method.over_shear * law.shear_modulus() : young_of(law);
 }
 
 /// A body of particles in `D` dimensions (two: plane strain), at rest in its reference configuration.

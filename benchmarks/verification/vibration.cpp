@@ -229,13 +229,14 @@ Problem rubber_bar() {
       .quantities = {},
       .across = "particles across the height",
       .sizes = {2, 3, 4, 5, 6, 8},
-      .methods = bulky_methods,
+      .methods = {paper, shear_wave, mean_dilatation, soft},
       .run = ring_rubber,
       .remark =
-          "From three particles on mean dilatation with 4/3 mu is right whatever the ratio, and so is 4/3 mu alone "
-          "in a bar as narrow as high; in wide sheets it is not, where their number of layers is even (see "
-          "[theory.md](theory.md)). Two particles are too stiff with any of the three: by E_hat alone they cannot "
-          "be made right for bars and for wide sheets at once."};
+          "From three particles on mean dilatation with 4/3 mu is right whatever the ratio, and so is 4/3 mu alone in "
+          "a "
+          "bar as narrow as high; in wide sheets it is not, where their number of layers is even (see "
+          "[theory.md](theory.md)). A bar of two particles is too stiff with both, and right with mean dilatation and "
+          "E_hat = mu."};
   for (const double ratio : bulk_over_shear)
     problem.quantities.push_back({.name = hmps::message("K/mu = ", ratio),
                                   .unit = "Hz",

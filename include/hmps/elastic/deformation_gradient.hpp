@@ -24,7 +24,7 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   for (int c = 0; c < D; ++c) {
     K* target = slots[static_cast<std::size_t>(c)] + first;
     if (consecutive) {
-      Lanes<K> staged;  // no slot, for all that the compiler knows, so that nothing is read after it was written
+      Lanes<K> staged;  // apart from the slots: the compiler sees that no source is overwritten, and works in registers
       const std::size_t i = blocks.particle(first);
       if (view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
         const T* source = view.base(c) + i;
