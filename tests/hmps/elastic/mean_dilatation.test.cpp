@@ -145,8 +145,8 @@ struct Choice {
 };
 Choice choice(int layers, double bulk) {
   const double modulus = hmps::shear_wave_modulus(1.0);
-  if (layers == 2) return {true, bulk < 10 ? 1.0 : modulus};
-  return {layers % 2 == 0 && bulk >= 30, modulus};
+  if (layers == 2) return {true, bulk < 5 ? 1.0 : modulus};
+  return {layers % 2 == 0 && bulk >= 20, modulus};
 }
 
 // Sheets of two particles and of any number above bend as they should, where without it those of an even number lock.
@@ -157,7 +157,7 @@ TEST(MeanDilatationOfSheets, DoesNotLock) {
       "| kappa/mu | layers | without | mean dilatation | 45 degrees | k h = 1.5 | E_hat = mu | best choice |\n"
       "|---|---|---|---|---|---|---|---|\n");
   const double modulus = hmps::shear_wave_modulus(1.0);
-  for (const double bulk : {3.0, 10.0, 30.0, 300.0}) {
+  for (const double bulk : {3.0, 5.0, 10.0, 20.0, 30.0, 300.0}) {
     const auto split = hmps::split_bulk_modulus(bulk, 1.0);
     for (const int layers : {2, 3, 4, 5, 8}) {
       const Sheet sheet(layers, 1.75, 6);  // the scales of neighbourhoods feel the rim of the patch beyond four bonds
@@ -177,11 +177,11 @@ TEST(MeanDilatationOfSheets, DoesNotLock) {
       std::printf("| %.0f | %d | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f |\n", bulk, layers, 100 * without,
                   100 * with, 100 * turned, 100 * averaged(1.5, x, modulus), 100 * averaged(slender, x, 1), 100 * best);
       // What one choice for all reaches, and the best one.
-      const double bound = layers > 2 ? 0.042 : bulk < 10 ? 0.08 : 0.052;
+      const double bound = layers > 2 ? 0.045 : bulk < 10 ? 0.08 : 0.052;
       EXPECT_LT(std::abs(with), bound) << bulk << ' ' << layers;
       EXPECT_LT(std::abs(turned), bound) << bulk << ' ' << layers;
-      EXPECT_LT(std::abs(best), layers > 2 ? 0.02 : 0.05) << bulk << ' ' << layers;
-      if (layers == 2 && bulk > 3) {
+      EXPECT_LT(std::abs(best), layers == 2 ? 0.05 : layers == 4 ? 0.024 : 0.013) << bulk << ' ' << layers;
+      if (layers == 2 && bulk > 5) {
         EXPECT_GT(without, 0.5) << "it would not lock without either";
       }
     }
