@@ -179,15 +179,15 @@ class MetaballContact {
 
  private:
   using Quad = detail::Quad<S>;
-  struct Master {
-    Quad x, A[D];  // A = F^-T F^-1
+  struct alignas(64) Master {  // a cache line of float
+    Quad x, A[D];              // A = F^-T F^-1
   };
-  struct Moving {
+  struct alignas(64) Moving {
     Quad v, B[D];  // B = F^-1
   };
   struct RowState {
     Point normal, slip;  // slip: v_im
-    S penetration;
+    S penetration;       // positive where the row touches, or did in the call before
   };
   struct Seat {                // what is remembered of a slave of one wall
     Vector<float, D> outward;  // before the masters turned, when it was last less than half inside
@@ -228,7 +228,7 @@ class MetaballContact {
   Lists lists_;
   std::vector<Master> masters_;  // per awake particle
   std::vector<Moving> moving_;
-  // Per candidate c / C where the row touches, else 0; row by row, and master by master.
+  // Per candidate, row by row, c / C where the row touches; and master by master, 0 where it does not.
   std::vector<S> weight_, entry_weight_;
   std::vector<RowState> state_;  // per row
   std::vector<Quad> force_;

@@ -13,8 +13,8 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   moving_.resize(awake_count);
   load_.resize(awake_count);
   weight_.resize(lists_.master_of.size());
-  entry_weight_.resize(lists_.master_of.size());
-  state_.resize(row_count);
+  entry_weight_.assign(lists_.master_of.size(), S(0));
+  state_.assign(row_count, RowState{});
   force_.resize(row_count);
   batch_rows_.resize(row_count);
   touching_.reserve(row_count);
@@ -71,6 +71,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   const Index* master_of = lists_.master_of.data();
   S* weight = weight_.data();
   RowState& state = state_[r];
+  const bool touched = state.penetration > S(0);
   const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
   const S over_radius_squared = S(1) / (radius * radius);
   Quad place;
@@ -104,7 +105,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   const Index* entry = lists_.entry_of.data();
   S* entry_weight = entry_weight_.data();
   if (!touches) {
-    for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] = 0;
+    for (std::size_t k = begin; touched && k < end; ++k) entry_weight[entry[k]] = 0;
     return false;
   }
   // Where the sum falls less than it should across a wall it no longer tells which way is out. In a wall of one layer
@@ -227,9 +228,12 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
       const RowState& state = state_[r];
       S load = 0;
       if (needs_load) {
+        // The first of four numbers: a sum of single products would be taken several at a time, rounded in another way
+        // than the rest that is left over, and so depend on how many candidates without weight lie between.
+        Quad of_masters{};
         for (std::size_t e = lists_.rows[r].begin; e < lists_.rows[r + 1].begin; ++e)
-          load += weight_[e] * load_[lists_.master_of[e]];
-        load += load_[lists_.rows[r].slave];
+          of_masters += Quad{load_[lists_.master_of[e]]} * weight_[e];
+        load = of_masters[0] + load_[lists_.rows[r].slave];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       const S normal = normal_force(k, state.penetration, std::min(damping, most), state.slip.dot(state.normal));

@@ -33,10 +33,8 @@ class MasterSurface {
     for (int c = 1; c < D; ++c) y += A[c] * r[static_cast<std::size_t>(c)];
     const Quad product = r * y;
     const S s = (D == 3 ? product[0] + product[1] + product[2] : product[0] + product[1]) * over_radius_squared;
-    // Selected, not branched to: whether a master is within reach is as good as random.
-    const bool within = s < S(1);
-    const S at = within ? s : S(1), c = within ? S(Ball::value(at)) : S(0);
-    y = y * (within ? S(Ball::slope(at)) : S(0));
+    const S at = detail::cut_at_one<S>(s, y), c = S(Ball::value(at));
+    y = y * S(Ball::slope(at));
     y[3] = c;
     sum_ += y;
     return c;

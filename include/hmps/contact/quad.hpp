@@ -54,6 +54,24 @@ HMPS_INLINE void spread(const Eigen::MatrixBase<Derived>& v, Quad<S>& quad) {
   for (int c = 0; c < v.size(); ++c) quad[static_cast<std::size_t>(c)] = v[c];
 }
 
+/// The smaller of `s` and 1; makes `quad` zero where `s` is not below 1. Whether it is is as good as random where it is
+/// asked for, so that nothing must branch on it: compilers do on a selection of one number, not of four.
+template <class S>
+[[nodiscard]] HMPS_INLINE S cut_at_one(S s, Quad<S>& quad) {
+#if defined(__GNUC__) || defined(__clang__)
+  const Quad<S> one = Quad<S>{} + S(1);
+  Quad<S> all = Quad<S>{} + s;
+  const auto below = all < one;
+  all = below ? all : one;
+  quad = below ? quad : Quad<S>{};
+  return all[0];
+#else
+  if (s < S(1)) return s;
+  quad = Quad<S>{};
+  return S(1);
+#endif
+}
+
 /// The first `D` numbers of `quad`.
 template <int D, class S>
 [[nodiscard]] HMPS_INLINE Vector<S, D> first(const Quad<S>& quad) {
