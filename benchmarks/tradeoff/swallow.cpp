@@ -48,12 +48,7 @@ Outcome swallow_once(const Settings& settings, const Scale& scale, double until)
     (name += '_') += rounded(settings.number(number), 6);
   const fs::path folder = scale.out / name;
 
-  // The automatic step is known once the scene is built.
-  if (const double share = settings.number("step"); share != 1) {
-    swallowing::Options shortest = options;
-    shortest.until = 1e-9;
-    options.time_step = share * run_into(scale.out / "automatic_step" / name, shortest).time_step;
-  }
+  options.step_share *= settings.number("step");
   const swallowing::Summary summary = run_into(folder, options);
   if (summary.failure) throw hmps::StateError(*summary.failure);
   Outcome outcome = meter.outcome({});

@@ -9,7 +9,7 @@ namespace swallowing {
 namespace {
 
 constexpr std::string_view magic = "hmps swallowing checkpoint\n";
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 /// Reads back as another number where the order of bytes differs.
 constexpr std::uint64_t byte_order = 0x0102030405060708;
 

@@ -26,9 +26,9 @@ void report(const Summary& summary) {
   else
     std::cout << "does not fold until " << summary.time << " s";
   std::cout << ", smallest tip angle " << summary.tip_angle_min << " degrees; ";
-  if (const auto& least = summary.least_step_limit)
-    std::cout << "the step was at most " << std::round(100 * summary.time_step / least->limit) << " % of its limit (at "
-              << least->time << " s, " << least->organ << "); ";
+  if (const auto& nearest = summary.nearest_to_limit)
+    std::cout << "the step was at most " << std::round(100 * nearest->share) << " % of its limit (at " << nearest->time
+              << " s, " << nearest->organ << "); ";
   std::cout << "took " << duration(summary.wall_seconds) << '\n';
   if (summary.failure) std::cerr << summary.case_name << " stopped: " << *summary.failure << '\n';
 }

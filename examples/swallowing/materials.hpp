@@ -20,7 +20,6 @@ struct Materials {
   /// and the spacing. The paper's k~ = 0.3 (--penalty-ratio) is stiffer, the more so the smaller the step: contact
   /// chatters.
   double contact_stiffness = 2e8;
-  double step_share = 0.6;  ///< of the largest stable step at rest: the body stretches as it swallows
   double speed_limit = 20;  ///< m/s: half the speed of sound; nothing in a swallow is as fast
 
   [[nodiscard]] double young_of(Organ organ) const { return organ == Organ::epiglottis ? young_epiglottis : young; }

@@ -56,7 +56,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
           ->check(within(0.5e-3, 2.4e-3, "the spacing is in metres and must lie between 0.5e-3 and 2.4e-3"));
   auto* time_step =
       number(app.add_option("--time-step", options.time_step,
-                            "time step in s, 0: from the estimate of the largest stable step (default: 0; paper: "
+                            "time step in s, 0: follows the estimate of the largest stable step (default: 0; paper: "
                             "1e-5)"),
              "S")
           ->check(within(0, 1e-3, "the time step is in seconds and must lie between 0 (automatic) and 1e-3"));
@@ -88,8 +88,14 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   number(app.add_option("--penalty-ratio", options.penalty_ratio,
                         "spring ratio k~ of eq. 25, k = k~ rho / dt^2 (paper: 0.3)"),
          "R")
-      ->check(within(1e-9, 1, "the spring ratio must lie above 0 and at most at 1"))
+      ->check(within(1e-9, 0.99, "the spring ratio must lie above 0 and at most at 0.99"))
       ->excludes(fixed)
+      ->group(experiments);
+  number(app.add_option("--step-share", options.step_share,
+                        "share of the largest stable step that a step takes (default: 0.8)"),
+         "R")
+      ->check(within(1e-3, 2, "the share of the stable step must lie between 1e-3 and 2"))
+      ->excludes(time_step)
       ->group(experiments);
   number(app.add_option("--lattice-shift", options.lattice_shift, "shift of the lattice along x and z in spacings"),
          "P")

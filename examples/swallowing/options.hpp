@@ -32,7 +32,8 @@ inline constexpr Quality default_quality = qualities[0];
 struct Options {
   std::vector<std::string> cases{"X1", "X3", "Y1", "Y3"};  ///< in the order in which they are run
   double spacing = default_quality.spacing;                ///< l0 in m
-  double time_step = default_quality.time_step;            ///< in s; 0: from the estimate of the largest stable step
+  double time_step = default_quality.time_step;            ///< in s; 0: follows the largest stable step
+  double step_share = 0.8;                                 ///< of the largest stable step, where the step follows it
   double until = end_of_swallow;                           ///< in s
   std::optional<double> friction;                          ///< overrules the friction coefficient of the cases
   std::optional<double> penalty;                           ///< fixed k in N/m4, whatever the step

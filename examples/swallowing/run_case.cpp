@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,22 +30,51 @@ namespace {
 
 constexpr double sample_interval = 1e-3;      // s, simulated
 constexpr double checkpoint_interval = 0.02;  // s, simulated
-constexpr double limit_interval = 0.05;       // s, simulated
+constexpr double limit_interval = 0.02;       // s, simulated
 constexpr double volume_time = 1.667;         // s, when the paper states det F
 
 /// Times k * interval that come one after the other; `due` is true once for each.
 class Every {
  public:
-  Every(double interval, double time_step) : interval_(interval), tolerance_(time_step / 2) {}
-  [[nodiscard]] bool due(double time) {
-    if (time < static_cast<double>(next_) * interval_ - tolerance_) return false;
-    next_ = static_cast<std::uint64_t>(std::floor((time + tolerance_) / interval_)) + 1;
+  explicit Every(double interval) : interval_(interval) {}
+  /// At `time`, from which on steps of `step` are taken.
+  [[nodiscard]] bool due(double time, double step) {
+    if (time < static_cast<double>(next_) * interval_ - step / 2) return false;
+    skip(time, step);
     return true;
+  }
+  /// Leaves out all until `time`.
+  void skip(double time, double step) {
+    next_ = static_cast<std::uint64_t>(std::floor((time + step / 2) / interval_)) + 1;
   }
 
  private:
-  double interval_, tolerance_;
+  double interval_;
   std::uint64_t next_ = 0;
+};
+
+/// Seconds that a run took, in all and for contact, for each tenth of a second that it simulated.
+struct Effort {
+  static constexpr double tenth = 0.1;  // s
+  std::vector<double> wall, contact;
+
+  /// Adds what was spent until the simulated time came to `time`.
+  void add(double time, double wall_seconds, double contact_seconds) {
+    const auto bin = static_cast<std::size_t>(std::max(std::ceil(time / tenth - 1e-6), 1.0)) - 1;
+    wall.resize(std::max(wall.size(), bin + 1));
+    contact.resize(wall.size());
+    wall[bin] += wall_seconds;
+    contact[bin] += contact_seconds;
+  }
+  [[nodiscard]] double seconds() const { return std::accumulate(wall.begin(), wall.end(), 0.0); }
+  [[nodiscard]] double contact_share() const {
+    return std::accumulate(contact.begin(), contact.end(), 0.0) / std::max(seconds(), 1e-9);
+  }
+  [[nodiscard]] std::vector<double> contact_share_per_tenth() const {
+    std::vector<double> shares;
+    for (std::size_t bin = 0; bin < wall.size(); ++bin) shares.push_back(contact[bin] / std::max(wall[bin], 1e-9));
+    return shares;
+  }
 };
 
 /// A number that changes with the text (FNV-1a).
@@ -56,7 +86,7 @@ std::uint64_t digest(std::string_view text) {
 
 /// All that the bits of a run depend on, as text.
 RunSettings fingerprint(const Options& options, const Case& chosen, const std::filesystem::path& data, double friction,
-                        double time_step, double penalty) {
+                        double first_step, double penalty) {
   const auto text = [](double value) { return hmps::message(std::hexfloat, value); };
   RunSettings settings{{"case", std::string(chosen.name)},
                        {"scalar", options.single_precision ? "float" : "double"},
@@ -64,7 +94,8 @@ RunSettings fingerprint(const Options& options, const Case& chosen, const std::f
                        {"lattice shift", text(options.lattice_shift)},
                        {"region H", options.constrictors ? "yes" : "no"},
                        {"friction", text(friction)},
-                       {"time step", text(time_step)},
+                       {"time step", text(first_step)},
+                       {"share of the stable step", options.time_step > 0 ? "none" : text(options.step_share)},
                        {"penalty", text(penalty)}};
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
@@ -94,6 +125,7 @@ class Run {
         simulation_(scene_, motion_, materials_,
                     {.friction = friction_,
                      .time_step = options.time_step,
+                     .step_share = options.step_share,
                      .penalty = options.penalty.value_or(0),
                      .penalty_ratio = options.penalty_ratio.value_or(0),
                      .threads = options.threads}),
@@ -105,7 +137,7 @@ class Run {
     summary_.spacing = options.spacing;
     summary_.friction = friction_;
     summary_.penalty = simulation_.penalty();
-    summary_.time_step = simulation_.time_step();
+    summary_.time_step_min = summary_.time_step_max = simulation_.time_step();
     summary_.time_step_limit = simulation_.step_limit().limit;
     for (const int region : scene_.region) ++(region < 0 ? summary_.particles_free : summary_.particles_control);
   }
@@ -118,32 +150,33 @@ class Run {
     std::optional<Frames> frames;
     if (options_.frames) frames.emplace(folder_, before);
 
-    start_ = std::chrono::steady_clock::now();
+    accounted_ = std::chrono::steady_clock::now();
     const auto first_step = simulation_.steps();
-    const double dt = simulation_.time_step();
-    Every sample(sample_interval, dt), frame(options_.frame_interval, dt), keep(checkpoint_interval, dt),
-        limit(limit_interval, dt);
-    if (before) (void)sample.due(*before), (void)frame.due(*before), (void)keep.due(*before), (void)limit.due(*before);
+    Every sample(sample_interval), frame(options_.frame_interval), keep(checkpoint_interval), limit(limit_interval);
+    if (before)
+      for (Every* what : {&sample, &frame}) what->skip(*before, simulation_.time_step());
+    for (Every* what : {&keep, &limit}) what->skip(simulation_.time(), simulation_.time_step());
     Progress progress(std::cerr, {.name = std::string(chosen_.name),
                                   .start = simulation_.time(),
                                   .until = options_.until,
                                   .particles = scene_.reference.size(),
                                   .terminal = options_.bar && is_terminal()});
     describe_step();
+    if (!before) compare_step(0);
     double smallest_j = 1;
     try {
       for (;;) {
-        const double time = simulation_.time();
-        if (sample.due(time)) {
+        const double time = simulation_.time(), dt = simulation_.time_step();
+        if (sample.due(time, dt)) {
           const Sample now = observe(simulation_, scene_, std::exchange(penetration_, 0) / scene_.spacing);
           smallest_j = now.smallest_j;
           series.add(now);
           measure(now);
           snap(snapshots, time);
         }
-        if (frames && frame.due(time)) add_frame(*frames, simulation_, scene_);
-        if (limit.due(time)) watch_step(time);
-        if (keep.due(time) && simulation_.steps() > first_step) checkpoint();
+        if (frames && frame.due(time, dt)) add_frame(*frames, simulation_, scene_);
+        if (limit.due(time, dt)) watch_step(time);
+        if (keep.due(time, dt)) checkpoint();
         if (time >= options_.until - dt / 2) break;
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
@@ -156,38 +189,50 @@ class Run {
     }
     const auto steps = simulation_.steps() - first_step;
     progress.finish(simulation_.time(), steps, smallest_j);
-    summary_.wall_seconds = seconds();
-    contact_seconds_ += simulation_.contact_seconds();
+    account();
     finish();
     draw_sheet(folder_ / "sheet.png", snapshots, title());
     return summary_;
   }
 
  private:
-  /// Seconds of the wall clock that the case took, those before a resumption included.
-  [[nodiscard]] double seconds() const {
-    return wall_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  /// Adds to the effort what was spent since this was done last.
+  void account() {
+    const auto now = std::chrono::steady_clock::now();
+    effort_.add(simulation_.time(), std::chrono::duration<double>(now - accounted_).count(),
+                simulation_.contact_seconds() - contact_accounted_);
+    accounted_ = now;
+    contact_accounted_ = simulation_.contact_seconds();
   }
   void describe_step() const {
     const auto& limit = simulation_.step_limit();
     const double share = simulation_.time_step() / limit.limit;
     std::cerr << hmps::message(chosen_.name, ": ", summary_.particles_free, " free and ", summary_.particles_control,
-                               " control particles; step ", 1e6 * simulation_.time_step(), " us, ",
-                               std::round(100 * share), " % of the limit at rest; ", simulation_.limited_by(), " (",
+                               " control particles; step ", 1e6 * simulation_.time_step(),
+                               options_.time_step > 0 ? " us, " : " us at first, ", std::round(100 * share),
+                               " % of the limit at rest; ", simulation_.limited_by(), " (",
                                name(scene_.organ[limit.particle]), ")\n");
   }
-  /// Keeps the smallest limit of the step, and warns where the step is beyond it.
+  /// Keeps how near the step is to the limit, and warns where it is beyond.
+  void compare_step(double time) {
+    const auto& now = simulation_.step_limit();
+    const double step = simulation_.time_step(), share = step / now.limit;
+    auto& nearest = summary_.nearest_to_limit;
+    const bool was_stable = !nearest || nearest->share <= 1;
+    if (!nearest || share > nearest->share)
+      nearest = NearestToLimit{share, now.limit, time, now.particle, std::string(name(scene_.organ[now.particle]))};
+    if (was_stable && share > 1)
+      std::cerr << hmps::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * step,
+                                 " us is beyond the limit of ", 1e6 * now.limit, " us that particle ", now.particle,
+                                 " (", nearest->organ, ") sets; try a smaller --time-step\n");
+  }
+  /// Looks at the limit again, for the steps that were taken, and lets those to come follow it.
   void watch_step(double time) {
     simulation_.refresh_step_limit();
-    const auto& now = simulation_.step_limit();
-    auto& least = summary_.least_step_limit;
-    const bool was_stable = !least || least->limit >= simulation_.time_step();
-    if (!least || now.limit < least->limit)
-      least = LeastStep{now.limit, time, now.particle, std::string(name(scene_.organ[now.particle]))};
-    if (was_stable && least->limit < simulation_.time_step())
-      std::cerr << hmps::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * simulation_.time_step(),
-                                 " us is beyond the limit of ", 1e6 * least->limit, " us that particle ",
-                                 least->particle, " (", least->organ, ") sets; try a smaller --time-step\n");
+    compare_step(time);
+    simulation_.follow_step_limit();
+    summary_.time_step_min = std::min(summary_.time_step_min, simulation_.time_step());
+    summary_.time_step_max = std::max(summary_.time_step_max, simulation_.time_step());
   }
 
   void measure(const Sample& now) {
@@ -211,17 +256,21 @@ class Run {
   void finish() {
     summary_.time = simulation_.time();
     summary_.steps = simulation_.steps();
+    summary_.time_step = summary_.time / static_cast<double>(std::max<std::uint64_t>(summary_.steps, 1));
     summary_.fold_time = fold_.time();
     summary_.fold_time_base = fold_base_.time();
     summary_.tip_angle_min = fold_.smallest();
+    summary_.wall_seconds = effort_.seconds();
     summary_.particle_steps_per_second =
         static_cast<double>(summary_.steps * scene_.reference.size()) / std::max(summary_.wall_seconds, 1e-9);
-    summary_.contact_share = contact_seconds_ / std::max(summary_.wall_seconds, 1e-9);
+    summary_.contact_share = effort_.contact_share();
+    summary_.contact_share_per_tenth = effort_.contact_share_per_tenth();
     write_summary(folder_ / "summary.json", summary_);
   }
 
   [[nodiscard]] std::filesystem::path checkpoint_file() const { return folder_ / "checkpoint.bin"; }
   void checkpoint() {
+    account();
     Checkpoint state;
     state.settings = settings_;
     state.time = simulation_.time();
@@ -232,11 +281,15 @@ class Run {
     std::vector<double> volume;
     if (const auto& J = summary_.det_f) volume = {J->mean, J->share_within_0_98_1_02, J->min, J->max};
     state.set("det F", volume);
-    std::vector<double> least;
-    if (const auto& l = summary_.least_step_limit) least = {l->limit, l->time, static_cast<double>(l->particle)};
-    state.set("least step limit", least);
+    std::vector<double> nearest;
+    if (const auto& n = summary_.nearest_to_limit)
+      nearest = {n->share, n->limit, n->time, static_cast<double>(n->particle)};
+    state.set("nearest to limit", nearest);
+    state.set("range of steps", std::array{summary_.time_step_min, summary_.time_step_max});
+    state.set("clock", std::array{simulation_.clock()});
     state.set("limiting mode", simulation_.step_limit().mode);
-    state.set("seconds", std::array{seconds(), contact_seconds_ + simulation_.contact_seconds()});
+    state.set("seconds", effort_.wall);
+    state.set("of them for contact", effort_.contact);
     state.save(checkpoint_file());
   }
   std::optional<double> resume() {
@@ -249,14 +302,17 @@ class Run {
       simulation_.position_array()[i] = Eigen::Vector3d(x[i][0], x[i][1], x[i][2]);
     state->get("velocities", simulation_.velocity_array());
     penetration_ = state->value<double>("penetration");
-    const auto seconds = state->get<double>("seconds");
-    wall_before_ = seconds[0], contact_seconds_ = seconds[1];
+    effort_ = {state->get<double>("seconds"), state->get<double>("of them for contact")};
     if (const auto J = state->get<double>("det F"); J.size() == 4) summary_.det_f = DetF{J[0], J[1], J[2], J[3]};
-    if (const auto l = state->get<double>("least step limit"); l.size() == 3) {
-      const auto particle = static_cast<std::uint64_t>(l[2]);
-      summary_.least_step_limit = LeastStep{l[0], l[1], particle, std::string(name(scene_.organ.at(particle)))};
+    if (const auto n = state->get<double>("nearest to limit"); n.size() == 4) {
+      const auto particle = static_cast<std::uint64_t>(n[3]);
+      summary_.nearest_to_limit =
+          NearestToLimit{n[0], n[1], n[2], particle, std::string(name(scene_.organ.at(particle)))};
     }
-    simulation_.resume(state->step, state->get<double>("limiting mode"));
+    std::array<double, 2> range{};
+    state->get("range of steps", range);
+    summary_.time_step_min = range[0], summary_.time_step_max = range[1];
+    simulation_.resume(state->value<StepClock>("clock"), state->get<double>("limiting mode"));
     return state->time;
   }
   [[nodiscard]] std::vector<std::array<double, 3>> positions() {
@@ -277,8 +333,9 @@ class Run {
   Summary summary_;
   FoldTime fold_, fold_base_;
   double penetration_ = 0;  ///< m, largest since the last sample
-  std::chrono::steady_clock::time_point start_;
-  double wall_before_ = 0, contact_seconds_ = 0;
+  Effort effort_;
+  std::chrono::steady_clock::time_point accounted_;
+  double contact_accounted_ = 0;  ///< s
 };
 
 }  // namespace

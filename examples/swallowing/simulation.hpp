@@ -23,6 +23,7 @@
 #include "materials.hpp"
 #include "motion.hpp"
 #include "scene.hpp"
+#include "step_clock.hpp"
 
 namespace swallowing {
 
@@ -34,7 +35,8 @@ class Simulation {
  public:
   struct Settings {
     double friction = 0.1;
-    double time_step = 0;      ///< s; 0: a share of the largest that is stable at rest
+    double time_step = 0;      ///< s; 0: follows the largest stable one
+    double step_share = 1;     ///< of the largest stable step, where the step follows it
     double penalty = 0;        ///< k in N/m4; 0: from the ratio, or from the materials
     double penalty_ratio = 0;  ///< k~ of \paper{25}; 0: not asked for
     int threads = 1;
@@ -55,12 +57,13 @@ class Simulation {
                                     hmps::artificial(Stabiliser{this}),
                                     hmps::viscous(materials.density, materials.kinematic_viscosity))),
         step_limit_(limit_at_rest()),
-        time_step_(settings.time_step > 0 ? settings.time_step : chosen_step(settings)),
+        step_share_(settings.time_step > 0 ? 0 : settings.step_share),
         penalty_(chosen_penalty(settings)),
         contact_({.spacing = scene.spacing,
                   .density = materials.density,
                   .friction = settings.friction,
                   .stiffness = hmps::PenaltyStiffness::fixed(penalty_)}) {
+    clock_ = StepClock(settings.time_step > 0 ? settings.time_step : chosen_step());
     limited_by_ = hmps::describe(step_limit_, causes(), hmps::relative_support(bonds_, step_limit_.particle));
     force_.restrict_to([&scene](std::size_t i) { return scene.region[i] < 0; });
     for (std::size_t i = 0; i < x_.size(); ++i) gradients().set(i, Eigen::Matrix3d::Identity());
@@ -74,32 +77,37 @@ class Simulation {
   void step() {
     const auto x = positions();
     const auto v = velocities();
-    force_.kick(body(x), body(v), materials_.density, time_step_, execute_);
+    force_.kick(body(x), body(v), materials_.density, time_step(), execute_);
     // What has a forced displacement moves by it, also as a wall, whatever forces act on it.
-    ++steps_;
+    clock_.advance();
     prescribe();
 
     const auto start = std::chrono::steady_clock::now();
     // Contact sees the drawn surfaces, not the stairs of the lattice.
     (*scene_->skin)(x, gradients(), hmps::vectors(places_), execute_);
-    report_ = contact_.kick(hmps::vectors(places_), v, gradients(), materials_.density, time_step_, execute_);
+    report_ = contact_.kick(hmps::vectors(places_), v, gradients(), materials_.density, time_step(), execute_);
     contact_.check(report_, time());
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-    hmps::drift(x, v, time_step_, execute_);
+    hmps::drift(x, v, time_step(), execute_);
   }
 
-  [[nodiscard]] double time() const { return static_cast<double>(steps_) * time_step_; }
-  [[nodiscard]] double time_step() const { return time_step_; }
+  [[nodiscard]] double time() const { return clock_.time(); }
+  /// s, of the steps that come.
+  [[nodiscard]] double time_step() const { return clock_.step(); }
   [[nodiscard]] double penalty() const { return penalty_; }
   /// The largest stable step of the body without contact, and the particle that limits it: at rest, or in the state of
   /// the latest refresh.
   [[nodiscard]] const hmps::StableStep& step_limit() const { return step_limit_; }
   /// Takes the limit of the present state, from the mode found last. The gradients mean nothing until the next step.
   void refresh_step_limit() { step_limit_ = limit(step_limit_.mode); }
+  /// Lets the step follow the limit, unless it was given. To be called on a beat of the clock.
+  void follow_step_limit() {
+    if (step_share_ > 0) clock_.change(chosen_step());
+  }
   /// The limit at rest in words: the particle that sets it, and which forces.
   [[nodiscard]] const std::string& limited_by() const { return limited_by_; }
-  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  [[nodiscard]] std::uint64_t steps() const { return clock_.steps(); }
   [[nodiscard]] double contact_seconds() const { return contact_seconds_; }
   [[nodiscard]] const hmps::ContactReport<S>& contact_report() const { return report_; }
 
@@ -140,8 +148,9 @@ class Simulation {
   /// bits.
   [[nodiscard]] std::vector<Eigen::Vector3d>& position_array() { return x_; }
   [[nodiscard]] std::vector<S>& velocity_array() { return v_; }
-  void resume(std::uint64_t steps, std::vector<double> limiting_mode) {
-    steps_ = steps;
+  [[nodiscard]] const StepClock& clock() const { return clock_; }
+  void resume(const StepClock& clock, std::vector<double> limiting_mode) {
+    clock_ = clock;
     step_limit_.mode = std::move(limiting_mode);
     contact_.refresh();
   }
@@ -171,7 +180,7 @@ class Simulation {
     const auto moves = [this](std::size_t i) { return scene_->region[i] < 0; };
     return hmps::stable_step([this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); },
                              body(positions()), body(velocities()), materials_.density,
-                             {.spacing = scene_->spacing, .seed = steps_ + 1, .start = start, .moves = moves},
+                             {.spacing = scene_->spacing, .seed = steps() + 1, .start = start, .moves = moves},
                              execute_);
   }
   /// Which of the forces limit the step at rest.
@@ -183,21 +192,26 @@ class Simulation {
                              {.spacing = scene_->spacing}, hmps::NamedForce{"elasticity", elasticity},
                              hmps::NamedForce{"stabiliser", stabiliser}, hmps::NamedForce{"viscosity", viscosity});
   }
-  /// A whole number of steps in a millisecond, so that samples and pictures fall on steps.
-  [[nodiscard]] double chosen_step(const Settings& settings) const {
-    const double stable = materials_.step_share * step_limit_.step * std::sqrt(1 - settings.penalty_ratio);
-    return 1e-3 / std::ceil(1e-3 / stable);
+  /// The share of the largest step that is stable with contact too, which adds k / rho to the square of a frequency.
+  [[nodiscard]] double chosen_step() const {
+    const double free = step_share_ * step_limit_.step;
+    return StepClock::dividing(free / std::sqrt(1 + free * free * penalty_ / materials_.density));
   }
   [[nodiscard]] double chosen_penalty(const Settings& settings) const {
     if (settings.penalty > 0) return settings.penalty;
-    if (settings.penalty_ratio > 0) return settings.penalty_ratio * materials_.density / (time_step_ * time_step_);
+    if (settings.penalty_ratio > 0) {
+      const double step = settings.time_step > 0
+                              ? settings.time_step
+                              : step_share_ * step_limit_.step * std::sqrt(1 - settings.penalty_ratio);
+      return settings.penalty_ratio * materials_.density / (step * step);
+    }
     return materials_.contact_stiffness / scene_->spacing;
   }
 
   /// Gives the control regions the velocities that take them where they are at the end of the step.
   void prescribe() {
     const auto one = [&](const auto& region, const auto& execute) {
-      region.prescribe(time(), time_step_, positions(), velocities(), execute, materials_.speed_limit);
+      region.prescribe(time(), time_step(), positions(), velocities(), execute, materials_.speed_limit);
     };
     // The particles of a large region are shared out among the threads; of small ones, such as plates, the regions.
     const auto large = [](const auto& region) { return region.particles().size() > 1000; };
@@ -239,10 +253,10 @@ class Simulation {
                                 hmps::record(std::declval<hmps::MatrixView<S, 3>>()),
                                 hmps::elastic(std::declval<Tissue>()), hmps::artificial(std::declval<Stabiliser>()),
                                 hmps::viscous(1.0, 1.0))) force_;
-  std::uint64_t steps_ = 0;
+  StepClock clock_;
   hmps::StableStep step_limit_;
   std::string limited_by_;
-  double time_step_, penalty_;
+  double step_share_, penalty_;
   hmps::MetaballContact<S, 3> contact_;
   std::vector<hmps::ControlRegion<double, 3>> regions_;
   hmps::ContactReport<S> report_;

@@ -33,14 +33,17 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
              {"share_within_0_98_1_02", s.det_f->share_within_0_98_1_02},
              {"min", s.det_f->min},
              {"max", s.det_f->max}};
-  Json least = nullptr;
-  if (const auto& l = s.least_step_limit)
-    least = {{"limit", l->limit}, {"time", l->time}, {"particle", l->particle}, {"organ", l->organ}};
+  Json nearest = nullptr;
+  if (const auto& n = s.nearest_to_limit)
+    nearest = {
+        {"share", n->share}, {"limit", n->limit}, {"time", n->time}, {"particle", n->particle}, {"organ", n->organ}};
   const Json json = {{"case", s.case_name},
                      {"spacing", s.spacing},
                      {"time_step", s.time_step},
+                     {"time_step_min", s.time_step_min},
+                     {"time_step_max", s.time_step_max},
                      {"time_step_limit", s.time_step_limit},
-                     {"least_step_limit", least},
+                     {"nearest_to_limit", nearest},
                      {"steps", s.steps},
                      {"time", s.time},
                      {"scalar", s.scalar},
@@ -57,6 +60,7 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
                      {"wall_seconds", s.wall_seconds},
                      {"particle_steps_per_second", s.particle_steps_per_second},
                      {"contact_share", s.contact_share},
+                     {"contact_share_per_tenth", s.contact_share_per_tenth},
                      {"failure", nullable(s.failure)}};
   examples::write_atomically(path, json.dump(2) + "\n");
 }
@@ -69,10 +73,12 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.case_name = json.at("case").get<std::string>();
     s.spacing = number(json, "spacing");
     s.time_step = number(json, "time_step");
+    s.time_step_min = number(json, "time_step_min");
+    s.time_step_max = number(json, "time_step_max");
     s.time_step_limit = number(json, "time_step_limit");
-    if (const auto l = json.find("least_step_limit"); l != json.end() && !l->is_null())
-      s.least_step_limit = LeastStep{number(*l, "limit"), number(*l, "time"), l->at("particle").get<std::uint64_t>(),
-                                     l->at("organ").get<std::string>()};
+    if (const Json& n = json.at("nearest_to_limit"); !n.is_null())
+      s.nearest_to_limit = NearestToLimit{number(n, "share"), number(n, "limit"), number(n, "time"),
+                                          n.at("particle").get<std::uint64_t>(), n.at("organ").get<std::string>()};
     s.steps = json.at("steps").get<std::uint64_t>();
     s.time = number(json, "time");
     s.scalar = json.at("scalar").get<std::string>();
@@ -91,6 +97,7 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.wall_seconds = number(json, "wall_seconds");
     s.particle_steps_per_second = number(json, "particle_steps_per_second");
     s.contact_share = number(json, "contact_share");
+    s.contact_share_per_tenth = json.at("contact_share_per_tenth").get<std::vector<double>>();
     s.failure = optional<std::string>(json, "failure");
     return s;
   } catch (const Json::exception& problem) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace swallowing {
 
@@ -16,11 +17,12 @@ struct DetF {
   double max = 0;
 };
 
-/// How near to instability a case came: the smallest of the estimates that were made of the largest stable step.
-struct LeastStep {
-  double limit = 0;            ///< s, without contact
+/// How near to instability a case came, by the estimates that were made of the largest stable step without contact.
+struct NearestToLimit {
+  double share = 0;            ///< largest ratio of a step to the limit
+  double limit = 0;            ///< s, then
   double time = 0;             ///< s, when that was
-  std::uint64_t particle = 0;  ///< that set it
+  std::uint64_t particle = 0;  ///< that set the limit
   std::string organ;           ///< of that particle
 };
 
@@ -31,10 +33,11 @@ struct Summary {
   int threads = 1;
   double spacing = 0;  ///< m
   double friction = 0;
-  double penalty = 0;                         ///< k in N/m4
-  double time_step = 0;                       ///< s
-  double time_step_limit = 0;                 ///< s, the estimate of the largest stable step at rest
-  std::optional<LeastStep> least_step_limit;  ///< the smallest such estimate met in the run
+  double penalty = 0;                              ///< k in N/m4
+  double time_step = 0;                            ///< s, in the mean
+  double time_step_min = 0, time_step_max = 0;     ///< s
+  double time_step_limit = 0;                      ///< s, the estimate of the largest stable step at rest
+  std::optional<NearestToLimit> nearest_to_limit;  ///< nothing if the run was too short for an estimate
   std::uint64_t steps = 0;
   double time = 0;  ///< s, simulated
   std::uint64_t particles_free = 0;
@@ -46,7 +49,9 @@ struct Summary {
   double max_penetration = 0;            ///< spacings
   double wall_seconds = 0;
   double particle_steps_per_second = 0;
-  double contact_share = 0;            ///< of the wall clock
+  double contact_share = 0;  ///< of the wall clock
+  /// The same of each tenth of a second that was simulated: free motion, the squeeze, and what is between.
+  std::vector<double> contact_share_per_tenth;
   std::optional<std::string> failure;  ///< why the run ended before its time
 };
 

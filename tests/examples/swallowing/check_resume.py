@@ -12,7 +12,7 @@ import time
 
 program = sys.argv[1]
 SETTINGS = ["--case", "X1", "--until", "0.045", "--frame-interval", "0.015"]  # a checkpoint comes every 0.02 s
-MEASURED = ("wall_seconds", "particle_steps_per_second", "contact_share", "threads")
+MEASURED = ("wall_seconds", "particle_steps_per_second", "contact_share", "contact_share_per_tenth", "threads")
 
 
 def command(out, *options):

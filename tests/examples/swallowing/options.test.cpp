@@ -84,6 +84,7 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_FALSE(parsed.options->constrictors);
   EXPECT_EQ(parsed.options->frame_interval, 0.02);
   EXPECT_EQ(parse({"--penalty-ratio", "0.1"}).options->penalty_ratio, 0.1);
+  EXPECT_EQ(parse({"--step-share", "0.4"}).options->step_share, 0.4);
 }
 
 TEST(Options, HelpNamesEveryOptionAndEndsWell) {
@@ -114,6 +115,9 @@ TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
                                                        {"--threads", "two"},
                                                        {"--penalty", "0"},
                                                        {"--penalty-ratio", "-1"},
+                                                       {"--penalty-ratio", "1"},
+                                                       {"--step-share", "0"},
+                                                       {"--step-share", "0.4", "--time-step", "1e-5"},
                                                        {"--unknown"},
                                                        {"--out", ""},
                                                        {"--lattice-shift", "7"},

@@ -22,7 +22,8 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
   s.case_name = "X1";
   s.spacing = 2.4e-3;
   s.time_step = 2e-5;
-  s.least_step_limit = swallowing::LeastStep{3e-5, 1.62, 17, "tongue"};
+  s.nearest_to_limit = swallowing::NearestToLimit{0.7, 3e-5, 1.62, 17, "tongue"};
+  s.contact_share_per_tenth = {0.1, 0.4};
   s.steps = 102500;
   s.particles_free = 6300;
   s.particles_control = 3100;
@@ -39,8 +40,8 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
   EXPECT_EQ(json.at("case"), "X1");
   EXPECT_EQ(json.at("spacing"), 2.4e-3);
   EXPECT_EQ(json.at("time_step"), 2e-5);
-  EXPECT_EQ(json.at("least_step_limit").at("limit"), 3e-5);
-  EXPECT_EQ(json.at("least_step_limit").at("time"), 1.62);
+  EXPECT_EQ(json.at("nearest_to_limit").at("share"), 0.7);
+  EXPECT_EQ(json.at("nearest_to_limit").at("time"), 1.62);
   EXPECT_EQ(json.at("steps"), 102500);
   EXPECT_EQ(json.at("particles_free"), 6300);
   EXPECT_EQ(json.at("particles_control"), 3100);
@@ -62,8 +63,9 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
   EXPECT_FALSE(read->fold_time_base);
   EXPECT_EQ(read->det_f->min, 0.91);
   EXPECT_EQ(read->steps, s.steps);
-  EXPECT_EQ(read->least_step_limit->particle, 17U);
-  EXPECT_EQ(read->least_step_limit->organ, "tongue");
+  EXPECT_EQ(read->nearest_to_limit->particle, 17U);
+  EXPECT_EQ(read->nearest_to_limit->organ, "tongue");
+  EXPECT_EQ(read->contact_share_per_tenth, s.contact_share_per_tenth);
 }
 
 TEST(Summary, WhatIsNotFiniteBecomesNull) {
