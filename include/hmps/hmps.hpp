@@ -65,6 +65,7 @@
 #include "hmps/shapes/thicken.hpp"
 #include "hmps/stabilise/artificial.hpp"
 #include "hmps/stabilise/shear_wave_modulus.hpp"
+#include "hmps/stabilise/sheet_stabiliser.hpp"
 #include "hmps/time/probed_scene.hpp"
 #include "hmps/time/relaxation.hpp"
 #include "hmps/time/stable_step.hpp"

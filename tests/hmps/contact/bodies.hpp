@@ -12,6 +12,14 @@
 /// Lattice boxes for the tests of contact.
 namespace bodies {
 
+/// What a test is typed over.
+template <class S_, int D_, class Ball_>
+struct Case {
+  using S = S_;
+  using Ball = Ball_;
+  static constexpr int D = D_;
+};
+
 using hmps::Index;
 
 /// Runs loops forwards or backwards, and counts them. One type for all tests, to compile once.

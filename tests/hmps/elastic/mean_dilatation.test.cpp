@@ -6,16 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
 #include "../force/equations.hpp"
-#include "../stabilise/sheets.hpp"
 #include "hmps/diagnostics/energy.hpp"
 #include "hmps/elastic/elastic_force.hpp"
+#include "hmps/force/internal_force.hpp"
 #include "hmps/stabilise/artificial.hpp"
-#include "hmps/stabilise/shear_wave_modulus.hpp"
 #include "hmps/viscosity/viscous.hpp"
 
 namespace {
@@ -136,79 +134,6 @@ TEST(SplitBulkModulus, NamesWhatIsWrong) {
   EXPECT_THROW((void)hmps::split_bulk_modulus(1.0, -1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::mean_dilatation(-1.0), hmps::InputError);
   EXPECT_EQ(hmps::split_bulk_modulus(1.0, 1.0).mean, 0);
-}
-
-// Whether a sheet of that many particles bends best with the mean dilatation, and with which E_hat, by docs/theory.md.
-struct Choice {
-  bool mean;
-  double modulus;
-};
-Choice choice(int layers, double bulk) {
-  const double modulus = hmps::shear_wave_modulus(1.0);
-  if (layers == 2) return {true, bulk < 5 ? 1.0 : modulus};
-  return {layers % 2 == 0 && bulk >= 20, modulus};
-}
-
-// Sheets of two particles and of any number above bend as they should, where without it those of an even number lock.
-// Prints the table in docs/theory.md.
-TEST(MeanDilatationOfSheets, DoesNotLock) {
-  using namespace sheets;
-  std::printf(
-      "| kappa/mu | layers | without | mean dilatation | 45 degrees | k h = 1.5 | E_hat = mu | best choice |\n"
-      "|---|---|---|---|---|---|---|---|\n");
-  const double modulus = hmps::shear_wave_modulus(1.0);
-  for (const double bulk : {3.0, 5.0, 10.0, 20.0, 30.0, 300.0}) {
-    const auto split = hmps::split_bulk_modulus(bulk, 1.0);
-    for (const int layers : {2, 3, 4, 5, 8}) {
-      const Sheet sheet(layers, 1.75, 6);  // the scales of neighbourhoods feel the rim of the patch beyond four bonds
-      const double h = layers;
-      const auto error = [&](double kh, const Vector& along, const auto&... terms) {
-        return sheet.bending(kh / h * along.normalized(), terms...) / plate(kh / h, h, bulk) - 1;
-      };
-      const auto averaged = [&](double kh, const Vector& along, double stabiliser) {
-        return error(kh, along, hmps::artificial(stabiliser), hmps::elastic(material(split.law)),
-                     hmps::mean_dilatation(split.mean));
-      };
-      const Vector x(1, 0, 0), diagonal(1, 1, 0);
-      const double without = error(slender, x, hmps::artificial(modulus), hmps::elastic(material(bulk)));
-      const double with = averaged(slender, x, modulus), turned = averaged(slender, diagonal, modulus);
-      const auto [mean, chosen] = choice(layers, bulk);
-      const double best = mean ? averaged(slender, x, chosen) : without;
-      std::printf("| %.0f | %d | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f |\n", bulk, layers, 100 * without,
-                  100 * with, 100 * turned, 100 * averaged(1.5, x, modulus), 100 * averaged(slender, x, 1), 100 * best);
-      // What one choice for all reaches, and the best one.
-      const double bound = layers > 2 ? 0.045 : bulk < 10 ? 0.08 : 0.052;
-      EXPECT_LT(std::abs(with), bound) << bulk << ' ' << layers;
-      EXPECT_LT(std::abs(turned), bound) << bulk << ' ' << layers;
-      EXPECT_LT(std::abs(best), layers == 2 ? 0.05 : layers == 4 ? 0.024 : 0.013) << bulk << ' ' << layers;
-      if (layers == 2 && bulk > 5) {
-        EXPECT_GT(without, 0.5) << "it would not lock without either";
-      }
-    }
-  }
-}
-
-// Motions of a few spacings cost energy still, and none is stiffer than where each particle resists alone.
-TEST(MeanDilatationOfSheets, LeavesNoSpuriousModeAndNoSmallerStep) {
-  using namespace sheets;
-  const double pi = std::acos(-1.0);
-  for (const double bulk : {3.0, 300.0})
-    for (const int layers : {2, 3, 4, 5}) {
-      const auto split = hmps::split_bulk_modulus(bulk, 1.0);
-      const auto stabiliser = hmps::artificial(choice(layers, bulk).modulus);
-      const Sheet sheet(layers, 1.75, 6);
-      for (const Vector& k : {Vector(pi / 2, 0, 0), Vector(pi, 0, 0), Vector(pi / 2, pi / 2, 0), Vector(pi, pi, 0)}) {
-        const auto eigenvalues = [&](const auto&... terms) -> Eigen::VectorXd {
-          return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(sheet.stiffness(k, stabiliser, terms...),
-                                                                 Eigen::EigenvaluesOnly)
-              .eigenvalues();
-        };
-        const auto with = eigenvalues(hmps::elastic(material(split.law)), hmps::mean_dilatation(split.mean));
-        const auto without = eigenvalues(hmps::elastic(material(bulk)));
-        EXPECT_GT(with.minCoeff(), 0.5) << bulk << ' ' << layers << ' ' << k.transpose();
-        EXPECT_LT(with.maxCoeff(), without.maxCoeff()) << bulk << ' ' << layers << ' ' << k.transpose();
-      }
-    }
 }
 
 }  // namespace
