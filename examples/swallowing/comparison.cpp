@@ -85,7 +85,7 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
                  static_cast<unsigned long long>(s->particles_control), s->wall_seconds);
   if (!runs.empty())
     text +=
-        "\n| case | spacing | time step | scalar | free particles | control particles | wall clock |\n"
+        "\n| case | spacing | mean time step | scalar | free particles | control particles | wall clock |\n"
         "|---|---|---|---|---|---|---|\n" +
         runs;
   for (std::size_t i = 0; i < 4; ++i)
@@ -183,7 +183,7 @@ void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4
     if (result.summary) {
       const Summary& s = *result.summary;
       canvas.text(table, y,
-                  format("spacing %.3g mm, time step %.3g s, %s", 1e3 * s.spacing, s.time_step, s.scalar.c_str()), 14,
+                  format("spacing %.3g mm, mean step %.3g s, %s", 1e3 * s.spacing, s.time_step, s.scalar.c_str()), 14,
                   faint);
       canvas.text(table, y + 22,
                   format("%llu free and %llu control particles", static_cast<unsigned long long>(s.particles_free),
