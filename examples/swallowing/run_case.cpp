@@ -31,6 +31,7 @@ namespace {
 constexpr double sample_interval = 1e-3;      // s, simulated
 constexpr double checkpoint_interval = 0.02;  // s, simulated
 constexpr double limit_interval = 0.02;       // s, simulated
+constexpr double least_limit = 0.05;          // of the step, as a share of that at rest
 constexpr double volume_time = 1.667;         // s, when the paper states det F
 
 /// Times k * interval that come one after the other; `due` is true once for each.
@@ -224,12 +225,20 @@ class Run {
     if (was_stable && share > 1)
       std::cerr << hmps::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * step,
                                  " us is beyond the limit of ", 1e6 * now.limit, " us that particle ", now.particle,
-                                 " (", nearest->organ, ") sets; try a smaller --time-step\n");
+                                 " (", nearest->organ, ") sets; try a smaller ",
+                                 options_.time_step > 0 ? "--time-step\n" : "--step-share\n");
   }
-  /// Looks at the limit again, for the steps that were taken, and lets those to come follow it.
+  /// Looks at the limit again, for the steps that were taken, and lets those to come follow it. Throws `StateError`
+  /// where it has all but vanished, since a run would not come to its end.
   void watch_step(double time) {
     simulation_.refresh_step_limit();
     compare_step(time);
+    const auto& now = simulation_.step_limit();
+    if (now.limit < least_limit * summary_.time_step_limit)
+      throw hmps::StateError(hmps::message("at ", time, " s the largest stable step has fallen to ", 1e6 * now.limit,
+                                           " us, from ", 1e6 * summary_.time_step_limit, " us at rest: particle ",
+                                           now.particle, " of the ", name(scene_.organ[now.particle]),
+                                           " is crushed or torn; try a finer --spacing, or a gentler motion (--data)"));
     simulation_.follow_step_limit();
     summary_.time_step_min = std::min(summary_.time_step_min, simulation_.time_step());
     summary_.time_step_max = std::max(summary_.time_step_max, simulation_.time_step());

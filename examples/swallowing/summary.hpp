@@ -37,7 +37,7 @@ struct Summary {
   double time_step = 0;                            ///< s, in the mean
   double time_step_min = 0, time_step_max = 0;     ///< s
   double time_step_limit = 0;                      ///< s, the estimate of the largest stable step at rest
-  std::optional<NearestToLimit> nearest_to_limit;  ///< nothing if the run was too short for an estimate
+  std::optional<NearestToLimit> nearest_to_limit;  ///< nothing before the first step
   std::uint64_t steps = 0;
   double time = 0;  ///< s, simulated
   std::uint64_t particles_free = 0;
