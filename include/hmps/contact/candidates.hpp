@@ -53,11 +53,11 @@ template <class T, int D>
 
 /// Which slaves may meet which masters. The outer list holds the pairs within reach plus `skin`, in rows
 /// of one slave each; a grid search makes it, whenever organs have moved or a reach has grown by that
-/// much. Most of its rows sleep: a check bounds how far the particles of a row may move before its slave
-/// could touch. From then on every call looks how far each particle has truly moved since the check, and
+/// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how far those of a row
+/// may be off that before its slave could touch. From then on every call looks how far each particle truly is off, and
 /// wakes the rows for which that is too far; what is awake makes up the inner list. A check is due when
 /// the rows woken since the last one have cost as much as it does, and after `longest_nap` calls (fewer
-/// where much is awake), for deformation gradients change too.
+/// where much is awake or moves fast), for deformation gradients change too.
 ///
 /// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when
 /// lists were made.
@@ -134,11 +134,13 @@ class Candidates {
   void check(const X& x, const Gradients& F, const E& execute);
 
  private:
-  static constexpr std::size_t chunk = 512, longest_nap = 64;
+  static constexpr std::size_t chunk = 512, shortest_nap = 8, longest_nap = 64;
   static constexpr Index none = std::numeric_limits<Index>::max();
-  // What a particle may do until the next check: a multiple of what it did since the last, but this at least
-  // (motion in spacings; strain as a share by which lengths measured by A change).
-  static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05);
+  // What a particle may do until the next check, beside going on as it went: a multiple of what it did since the last,
+  // but this at least (motion in spacings; strain as a share by which lengths measured by A change; turn of a normal
+  // in rad).
+  static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05), least_turn = S(0.03),
+                     first_turn = S(0.2);
   struct Member {
     Index particle, number;
     std::uint8_t flags;
@@ -160,6 +162,11 @@ class Candidates {
     S compression;
     S rest;  // by which share of its bound each of its particles may move before it has to wake; zero: awake
   };
+  struct Facing {        // of a slave to one wall, at the latest check
+    Point outward;       // normal of the wall; zero where it was not asked for
+    S turn;              // by which it may turn until the next check
+    bool trusted, late;  // its row sleeps because of it; has turned further
+  };
   struct Near {
     Index slave, master;
   };
@@ -169,7 +176,7 @@ class Candidates {
   void add_side(std::size_t slaves, std::size_t masters);
   void number();
   template <class X, class Gradients, class E>
-  void measure(const X& x, const Gradients& F, const E& execute);
+  [[nodiscard]] bool measure(const X& x, const Gradients& F, const E& execute);
   template <class E>
   void measure_organs(const E& execute);
   [[noreturn]] void fail(const OrganRange& organ) const;
@@ -179,8 +186,10 @@ class Candidates {
   template <class E>
   void build_side(std::uint32_t side, const E& execute);
   void list_rows_of_particles();
-  [[nodiscard]] bool can_touch(const OuterRow& row, S density) const;
+  [[nodiscard]] Point expected(std::size_t i) const { return place_[i] + static_cast<S>(age_) * drift_[i]; }
+  [[nodiscard]] S longer() const { return static_cast<S>(nap_) / static_cast<S>(std::max<std::size_t>(age_, 1)); }
   void put_to_sleep(std::size_t row);
+  [[nodiscard]] S widest(const OuterRow& row);
   template <class X, class E>
   [[nodiscard]] bool watch(const X& x, const E& execute);
   void wake(Index particle, S moved_squared);
@@ -194,16 +203,19 @@ class Candidates {
   std::vector<Index> particle_;
   std::vector<std::uint8_t> flags_;
   std::vector<Point> place_, built_place_;  // at the latest check and build
+  std::vector<Point> drift_;                // motion per call that is expected until the next check
   std::vector<Matrix<S, D>> metric_;        // A = F^-T F^-1 at the latest check
   std::vector<S> reach_, built_reach_;      // r_e times the stretch
   std::vector<S> compression_;              // bound of |F^-1|; negative: squashed flat, no wall
-  std::vector<S> bound_, strain_;           // of motion in m and strain, until the next check
+  std::vector<S> bound_, strain_;           // of motion beside the drift in m and strain, until the next check
+  std::vector<S> travel_;                   // bound and drift in m
   std::vector<S> allowance_;                // square of the motion that wakes a row or makes a check due
   std::vector<Index> strayed_;
   std::vector<Watch> watches_;
   // The outer list.
   std::vector<OuterRow> outer_rows_;  // one more at the end
   std::vector<Index> outer_master_, kept_master_;
+  std::vector<Facing> facing_;                  // per seat
   std::vector<Index> rows_of_begin_, rows_of_;  // the outer rows that each particle is in
   // Scratch.
   std::vector<Index> awake_of_, next_;

@@ -80,10 +80,12 @@ void Candidates<S, D, Ball>::number() {
   }
   awake_of_.assign(count, none);
   place_.assign(count, Point::Zero());
+  drift_.assign(count, Point::Zero());
   metric_.assign(count, Matrix<S, D>::Identity());
   reach_.assign(count, S(0));
   compression_.assign(count, S(-1));
   bound_.assign(count, S(0));
+  travel_.assign(count, S(0));
   strain_.assign(count, S(0));
   allowance_.assign(count, S(0));
   strayed_.resize(count);

@@ -27,7 +27,10 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
     number();
     built_ = false;
   }
-  measure(x, F, execute);
+  if (!built_) facing_.assign(seats, {Point::Zero(), first_turn, false, false});
+  // Sharper lists are worth about a tenth of what is spent on evaluating them.
+  nap_ = std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), shortest_nap, longest_nap);
+  bool is_late = measure(x, F, execute);
   measure_organs(execute);
   ++checks;
   for (const Side& side : sides)
@@ -36,8 +39,16 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();
   for (const Side& side : sides) most = std::min(most, S(0.4) * (side.limit - used(side)));
+  const S most_drift = S(0.5) * most;
+  S fastest = 0;
+  for (const Point& drift : drift_) fastest = std::max(fastest, drift.norm());
+  if (static_cast<S>(nap_) * fastest > most_drift)
+    nap_ = std::max(shortest_nap, static_cast<std::size_t>(most_drift / fastest));
   for (std::size_t i = 0; i < bound_.size(); ++i) {
-    bound_[i] = std::min(bound_[i], most);
+    const S drift = static_cast<S>(nap_) * drift_[i].norm();
+    if (drift > most_drift) drift_[i] *= most_drift / drift;
+    bound_[i] = std::min(bound_[i], most - std::min(drift, most_drift));
+    travel_[i] = bound_[i] + std::min(drift, most_drift);
     allowance_[i] = bound_[i] * bound_[i];
   }
   const std::size_t count = outer_rows_.size() - 1;
@@ -47,6 +58,7 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   });
   for (std::size_t r = 0; r < count; ++r) {
     const OuterRow& row = outer_rows_[r];
+    is_late = is_late || facing_[row.seat].late;
     if (!(row.rest > S(0) && row.rest < S(1))) continue;
     const auto limit = [&](Index i) {
       const S motion = row.rest * bound_[i];
@@ -55,10 +67,9 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
     limit(row.slave);
     for (Index k = row.begin; k < row.kept; ++k) limit(kept_master_[k]);
   }
+  late += is_late;
   age_ = woken_ = woken_work_ = 0;
   select();
-  // Sharper lists are worth about a tenth of what is spent on evaluating them.
-  nap_ = std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), 8, longest_nap);
 }
 
 /// How much of its limit a side has used up since the outer list was built.
@@ -68,10 +79,10 @@ S Candidates<S, D, Ball>::used(const Side& side) const {
   return a.motion + b.motion + (a.moved - b.moved).norm() + b.growth;
 }
 
-/// Place, reach and strain of every particle.
+/// Place, reach and strain of every particle. True if some strain has changed by more than was allowed for.
 template <class S, int D, Metaball Ball>
 template <class X, class Gradients, class E>
-void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& execute) {
+bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(chunk % width == 0);
   execute(watches_.size(), [&](std::size_t q) {
@@ -86,9 +97,11 @@ void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
         const std::size_t i = begin + l;
         const Point place = x[particle_[i]].template cast<S>();
-        const S longer = static_cast<S>(nap_) / static_cast<S>(std::max<std::size_t>(age_, 1));
-        bound_[i] = built_ ? least_motion * normal_density.spacing() + S(2) * longer * (place - place_[i]).norm()
-                           : std::numeric_limits<S>::max();
+        bound_[i] = std::numeric_limits<S>::max();
+        if (built_)
+          bound_[i] = least_motion * normal_density.spacing() + S(2) * longer() * (place - expected(i)).norm();
+        drift_[i].setZero();
+        if (built_) drift_[i] = (place - place_[i]) / static_cast<S>(std::max<std::size_t>(age_, 1));
         place_[i] = place;
         // |B r| = sqrt(r . A r) changes by half of |dA| over the smallest eigenvalue of A, as a share.
         S change = 0;
@@ -100,7 +113,7 @@ void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
         }
         change = S(0.5) * std::sqrt(change) * stretch.lane[l] * stretch.lane[l];
         late_here = late_here || (built_ && rows_of_begin_[i] < rows_of_begin_[i + 1] && change > strain_[i]);
-        strain_[i] = built_ ? std::max({least_strain, S(4) * longer * change, S(0.5) * strain_[i]}) : first_strain;
+        strain_[i] = built_ ? std::max({least_strain, S(4) * longer() * change, S(0.5) * strain_[i]}) : first_strain;
         const S reach = radius_ * stretch.lane[l];
         reach_[i] = reach;
         // A master that is squashed flat is no wall.
@@ -112,7 +125,7 @@ void Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
   });
   bool any = false;
   for (const Watch& part : watches_) any = any || part.late;
-  late += any;
+  return any;
 }
 
 /// How far the organs have moved since the outer list was built.
@@ -167,17 +180,47 @@ void Candidates<S, D, Ball>::fail(const OrganRange& organ) const {
                            "' to overflow; the run has become unstable: try a shorter step or a softer penalty"));
 }
 
-/// Whether the slave of `row` could touch until the next check if the sum of metaballs were `density`.
+/// An upper bound until the next check of |F_i^T n| max |F_j^-1 n| over the masters kept for `row`: the distance R_im,
+/// less half a spacing and over as much, at which its slave touches. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a
+/// normal that turns by t changes them by t times the largest stretch.
 template <class S, int D, Metaball Ball>
-bool Candidates<S, D, Ball>::can_touch(const OuterRow& row, S density) const {
-  const S l0 = normal_density.spacing(),
-          support = (S(1) + strain_[row.slave]) * S(0.5) * l0 * reach_[row.slave] / radius_;
-  return surface_distance(S(1), normal_density.inverse(density).value, l0) < support * row.compression;
+S Candidates<S, D, Ball>::widest(const OuterRow& row) {
+  Point outward = Point::Zero();
+  for (Index k = row.begin; k < row.kept; ++k) {
+    const Index j = kept_master_[k];
+    const Point apart = place_[j] - place_[row.slave], along = metric_[j] * apart;
+    const S s = apart.dot(along) / (radius_ * radius_);
+    if (s < S(1)) outward += Ball::slope(s) * along;
+  }
+  Facing& facing = facing_[row.seat];
+  const S steepness = outward.norm();
+  if (!(steepness > S(0))) {
+    facing.outward.setZero();
+    return std::numeric_limits<S>::max();
+  }
+  outward /= steepness;
+  if (facing.outward.isZero()) {
+    facing.turn = first_turn;
+  } else {
+    const S turn = (outward - facing.outward).norm();
+    facing.late = facing.trusted && turn > facing.turn;
+    facing.turn = std::max({least_turn, S(4) * longer() * turn, S(0.5) * facing.turn});
+  }
+  facing.outward = outward;
+  S compression = 0;
+  for (Index k = row.begin; k < row.kept; ++k) {
+    const Index j = kept_master_[k];
+    const S length = std::sqrt(outward.dot(metric_[j] * outward)) + facing.turn * compression_[j];
+    compression = std::max(compression, (S(1) + strain_[j]) * std::min(compression_[j], length));
+  }
+  const S stretch = reach_[row.slave] / radius_,
+          length = std::sqrt(outward.dot(inverse<S, D>(metric_[row.slave]) * outward)) + facing.turn * stretch;
+  return (S(1) + strain_[row.slave]) * std::min(stretch, length) * compression;
 }
 
 /// Keeps the masters of outer row `r` that could be within reach before the next check, and tells how
-/// long it may rest: C is bounded from above with every master nearer by what both may move. With B
-/// for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
+/// long it may rest: C is bounded from above with every master as near as it comes if both drift on, and nearer by what
+/// both may move beside that. With B for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
 template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
   OuterRow& row = outer_rows_[r];
@@ -188,10 +231,13 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
   row.compression = 0;
   for (Index k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
     const Index j = outer_master_[k];
-    const Point apart = place_[j] - place;
+    Point apart = place_[j] - place;
     const S strain = S(1) + strain_[j], motion = bound_[row.slave] + bound_[j];
-    const S furthest = strain * reach_[j] + motion;
+    const S furthest = strain * reach_[j] + travel_[row.slave] + travel_[j];
     if (compression_[j] < S(0) || !(apart.squaredNorm() <= furthest * furthest)) continue;
+    const Point drift = static_cast<S>(nap_) * (drift_[j] - drift_[row.slave]);
+    const Point along = metric_[j] * drift;
+    if (const S ahead = -apart.dot(along); ahead > S(0)) apart += std::min(S(1), ahead / drift.dot(along)) * drift;
     const S distance = std::sqrt(apart.dot(metric_[j] * apart)) / (strain * radius_);
     S nearer = strain * compression_[j] / radius_ * motion;
     if (distance - nearer >= S(1)) continue;
@@ -202,10 +248,23 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
       density[q] += Ball::value(std::min(S(1), nearest * nearest));
     }
   }
-  row.rest = 1;
-  for (std::size_t q = 0; q < levels && row.rest > S(0); ++q) {
-    if (!can_touch(row, density[q])) return;
-    row.rest = q + 1 < levels ? S(0.5) * row.rest : S(0);
+  const S l0 = normal_density.spacing();
+  const auto rests = [&](S touching) {
+    row.rest = 1;
+    for (std::size_t q = 0; q < levels; ++q, row.rest *= S(0.5))
+      if (!(surface_distance(S(1), normal_density.inverse(density[q]).value, l0) < S(0.5) * l0 * touching)) return true;
+    row.rest = 0;
+    return false;
+  };
+  // What stretches and turns may do in any direction; only where that is too much, what they may do along the normal.
+  const S stretch = (S(1) + strain_[row.slave]) * reach_[row.slave] / radius_;
+  Facing& facing = facing_[row.seat];
+  facing.late = false;
+  if (rests(stretch * row.compression)) {
+    facing.outward.setZero();
+    facing.trusted = false;
+  } else {
+    facing.trusted = rests(widest(row));
   }
 }
 
@@ -215,7 +274,7 @@ template <class S, int D, Metaball Ball>
 template <class X, class E>
 bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
   const auto moved_squared = [&](std::size_t i) {
-    return (x[particle_[i]].template cast<S>() - place_[i]).squaredNorm();
+    return (x[particle_[i]].template cast<S>() - expected(i)).squaredNorm();
   };
   execute(watches_.size(), [&](std::size_t q) {
     Watch found{0, false, false};

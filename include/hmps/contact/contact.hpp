@@ -56,8 +56,8 @@ struct ContactReport {
   Index deepest = 0;           ///< Its slave.
   std::size_t candidates = 0;  ///< Slave-master pairs that were looked at.
   std::size_t rebuilds = 0;    ///< How often the grid search ran so far.
-  /// How many checks of the lists so far found some strain to have changed by more than they allow for, so
-  /// that a touch could have been seen a few steps late. Zero or rare unless a run chatters.
+  /// How many checks of the lists so far found some strain or normal to have changed by more than they allow for,
+  /// so that a touch could have been seen a few steps late. Zero or rare unless a run chatters.
   std::size_t late = 0;
 };
 
@@ -198,7 +198,7 @@ class MetaballContact {
     Index deepest = 0;  // row
     S depth = 0;
   };
-  static constexpr std::size_t batch = 64;
+  static constexpr std::size_t batch = 8, gather_batch = 64;  // of rows: few, since quiet scenes have few
 
   template <class X, class V, class G, class T, class E>
   ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute) {

@@ -27,10 +27,10 @@ template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class E>
 void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
-  static_assert(batch % width == 0);
-  execute((masters_.size() + batch - 1) / batch, [&](std::size_t q) {
-    const std::size_t end = std::min(masters_.size(), (q + 1) * batch);
-    for (std::size_t begin = q * batch; begin < end; begin += width) {
+  static_assert(gather_batch % width == 0);
+  execute((masters_.size() + gather_batch - 1) / gather_batch, [&](std::size_t q) {
+    const std::size_t end = std::min(masters_.size(), (q + 1) * gather_batch);
+    for (std::size_t begin = q * gather_batch; begin < end; begin += width) {
       const auto B = inverse<Lanes<S>, D>(detail::gather_gradients<S, D>(
           F, [&](std::size_t l) { return lists_.awake[std::min(begin + l, end - 1)].particle; }));
       const auto A = right_cauchy_green<Lanes<S>, D>(B);

@@ -109,6 +109,36 @@ TEST(Candidates, NeverMissATouchWhileBodiesMove) {
   EXPECT_LT(lists.rebuilds, 100U);
 }
 
+/// Rows that are awake, on average, while both bodies move along at 0.5 m/s.
+double awake_rows(Pile pile) {
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  double rows = 0;
+  constexpr int steps = 600;
+  for (int step = 0; step < steps; ++step) {
+    for (auto& x : pile.x) x[0] += 0.5 * 1e-5;
+    lists.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{});
+    if (step >= steps / 2) rows += static_cast<double>(lists.rows.size() - 1) / (steps - steps / 2);
+  }
+  EXPECT_EQ(lists.late, 0U);
+  return rows;
+}
+
+TEST(Candidates, SleepWhereOrgansMoveTogether) {
+  // A tenth of a spacing from touching, and as deep in.
+  EXPECT_EQ(awake_rows(Pile(1.1)), 0);
+  EXPECT_GT(awake_rows(Pile(0.9)), 1);
+}
+
+TEST(Candidates, SleepBesideWhatIsStretchedAlongItsWall) {
+  // Twice as long, and as much thinner: near for what is stretched in any direction, not for this.
+  Pile pile(1.2);
+  for (auto& F : pile.F) F.diagonal() << 1.5, 1.5, 1 / 2.25;
+  EXPECT_EQ(awake_rows(pile), 0);
+  for (auto& F : pile.F) F.diagonal() << 1 / 1.5, 1, 1.5;
+  EXPECT_GT(awake_rows(pile), 1);
+}
+
 TEST(Candidates, AreOrderedAndTransposedConsistently) {
   Pile pile(0.8);
   Lists lists(1e-3, 0.5e-3);
