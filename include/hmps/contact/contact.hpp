@@ -72,7 +72,9 @@ struct ContactReport {
 ///
 /// Forces of a contact and its reactions sum to zero; their torque does not vanish exactly, since a
 /// reaction acts at the master's centre and not at the touching point (\paper{41, 42}).
-/// Results are the same to the bit for any executor, and do not depend on when lists were built.
+/// Results are the same to the bit for any executor, and do not depend on when lists were built as long as `late` of
+/// the report stays zero: what deforms much within a few steps, as in an impact at half of the speed of sound, may be
+/// seen a few steps late.
 /// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
 /// error of that.
 template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
