@@ -8,6 +8,7 @@
 #include "hmps/contact/candidates.hpp"
 #include "hmps/contact/candidates_build.hpp"
 #include "hmps/contact/candidates_select.hpp"
+#include "hmps/contact/candidates_sleep.hpp"
 #include "hmps/contact/contact.hpp"
 #include "hmps/contact/contact_evaluate.hpp"
 #include "hmps/contact/master_surface.hpp"

@@ -227,3 +227,4 @@ class Candidates {
 
 #include "hmps/contact/candidates_build.hpp"
 #include "hmps/contact/candidates_select.hpp"
+#include "hmps/contact/candidates_sleep.hpp"

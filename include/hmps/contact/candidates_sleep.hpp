@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hmps/contact/candidates.hpp"
+#include "hmps/contact/master_surface.hpp"
+
+namespace hmps::detail {
+
+/// An upper bound until the next check of |F_i^T n| max |F_j^-1 n| over the masters kept for `row`: the distance R_im,
+/// less half a spacing and over as much, at which its slave touches. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a
+/// normal that turns by t changes them by t times the largest stretch.
+template <class S, int D, Metaball Ball>
+S Candidates<S, D, Ball>::widest(const OuterRow& row) {
+  Point outward = Point::Zero();
+  for (Index k = row.begin; k < row.kept; ++k) {
+    const Index j = kept_master_[k];
+    const Point apart = place_[j] - place_[row.slave], along = metric_[j] * apart;
+    const S s = apart.dot(along) / (radius_ * radius_);
+    if (s < S(1)) outward += Ball::slope(s) * along;
+  }
+  Facing& facing = facing_[row.seat];
+  const S steepness = outward.norm();
+  if (!(steepness > S(0))) {
+    facing.outward.setZero();
+    return std::numeric_limits<S>::max();
+  }
+  outward /= steepness;
+  if (facing.outward.isZero()) {
+    facing.turn = first_turn;
+  } else {
+    const S turn = (outward - facing.outward).norm();
+    facing.late = facing.trusted && turn > facing.turn;
+    facing.turn = std::max({least_turn, S(4) * longer() * turn, S(0.5) * facing.turn});
+  }
+  facing.outward = outward;
+  S compression = 0;
+  for (Index k = row.begin; k < row.kept; ++k) {
+    const Index j = kept_master_[k];
+    const S length = std::sqrt(outward.dot(metric_[j] * outward)) + facing.turn * compression_[j];
+    compression = std::max(compression, (S(1) + strain_[j]) * std::min(compression_[j], length));
+  }
+  const S stretch = reach_[row.slave] / radius_,
+          length = std::sqrt(outward.dot(inverse<S, D>(metric_[row.slave]) * outward)) + facing.turn * stretch;
+  return (S(1) + strain_[row.slave]) * std::min(stretch, length) * compression;
+}
+
+/// Keeps the masters of outer row `r` that could be within reach before the next check, and tells how
+/// long it may rest: C is bounded from above with every master as near as it comes if both drift on, and nearer by what
+/// both may move beside that. With B for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
+  OuterRow& row = outer_rows_[r];
+  const Point place = place_[row.slave];
+  constexpr std::size_t levels = 3;
+  S density[levels] = {};
+  row.kept = row.begin;
+  row.compression = 0;
+  for (Index k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
+    const Index j = outer_master_[k];
+    Point apart = place_[j] - place;
+    const S strain = S(1) + strain_[j], motion = bound_[row.slave] + bound_[j];
+    const S furthest = strain * reach_[j] + travel_[row.slave] + travel_[j];
+    if (compression_[j] < S(0) || !(apart.squaredNorm() <= furthest * furthest)) continue;
+    const Point drift = static_cast<S>(nap_) * (drift_[j] - drift_[row.slave]);
+    const Point along = metric_[j] * drift;
+    if (const S ahead = -apart.dot(along); ahead > S(0)) apart += std::min(S(1), ahead / drift.dot(along)) * drift;
+    const S distance = std::sqrt(apart.dot(metric_[j] * apart)) / (strain * radius_);
+    S nearer = strain * compression_[j] / radius_ * motion;
+    if (distance - nearer >= S(1)) continue;
+    kept_master_[row.kept++] = j;
+    row.compression = std::max(row.compression, strain * compression_[j]);
+    for (std::size_t q = 0; q < levels; ++q, nearer *= S(0.5)) {
+      const S nearest = std::max(S(0), distance - nearer);
+      density[q] += Ball::value(std::min(S(1), nearest * nearest));
+    }
+  }
+  const S l0 = normal_density.spacing();
+  const auto rests = [&](S touching) {
+    row.rest = 1;
+    for (std::size_t q = 0; q < levels; ++q, row.rest *= S(0.5))
+      if (!(surface_distance(S(1), normal_density.inverse(density[q]).value, l0) < S(0.5) * l0 * touching)) return true;
+    row.rest = 0;
+    return false;
+  };
+  // What stretches and turns may do in any direction; only where that is too much, what they may do along the normal.
+  const S stretch = (S(1) + strain_[row.slave]) * reach_[row.slave] / radius_;
+  Facing& facing = facing_[row.seat];
+  facing.late = false;
+  if (rests(stretch * row.compression)) {
+    facing.outward.setZero();
+    facing.trusted = false;
+  } else {
+    facing.trusted = rests(widest(row));
+  }
+}
+
+/// Wakes the rows of what has moved too far since the check. False if something has moved so far, or is
+/// not finite, that a new check is due.
+template <class S, int D, Metaball Ball>
+template <class X, class E>
+bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
+  const auto moved_squared = [&](std::size_t i) {
+    return (x[particle_[i]].template cast<S>() - expected(i)).squaredNorm();
+  };
+  execute(watches_.size(), [&](std::size_t q) {
+    Watch found{0, false, false};
+    for (std::size_t i = q * chunk; i < std::min(particle_.size(), (q + 1) * chunk); ++i)
+      if (const S moved = moved_squared(i); !(moved <= allowance_[i])) {
+        strayed_[q * chunk + found.strayed++] = static_cast<Index>(i);
+        found.far = found.far || !(moved <= bound_[i] * bound_[i]);
+      }
+    watches_[q] = found;
+  });
+  for (const Watch& found : watches_)
+    if (found.far) return false;
+  for (std::size_t q = 0; q < watches_.size(); ++q)
+    for (std::size_t k = q * chunk; k < q * chunk + watches_[q].strayed; ++k)
+      wake(strayed_[k], moved_squared(strayed_[k]));
+  return true;
+}
+
+/// Wakes the rows that must not sleep any more now that one of their particles has moved so far.
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::wake(Index particle, S moved_squared) {
+  S& allowance = allowance_[particle] = bound_[particle] * bound_[particle];
+  for (Index q = rows_of_begin_[particle]; q < rows_of_begin_[particle + 1]; ++q) {
+    OuterRow& row = outer_rows_[rows_of_[q]];
+    const S motion = row.rest * bound_[particle], rest_squared = motion * motion;
+    if (row.rest == S(0)) continue;
+    if (rest_squared < moved_squared) {
+      row.rest = 0;
+      woken_ += row.kept - row.begin;
+    } else {
+      allowance = std::min(allowance, rest_squared);
+    }
+  }
+}
+
+}  // namespace hmps::detail
