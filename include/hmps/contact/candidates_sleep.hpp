@@ -11,20 +11,17 @@ namespace hmps::detail {
 /// normal that turns by t changes them by t times the largest stretch.
 template <class S, int D, Metaball Ball>
 S Candidates<S, D, Ball>::widest(const OuterRow& row) {
-  Point outward = Point::Zero();
+  MasterSurface<S, D, Ball> surface;
   for (Index k = row.begin; k < row.kept; ++k) {
     const Index j = kept_master_[k];
-    const Point apart = place_[j] - place_[row.slave], along = metric_[j] * apart;
-    const S s = apart.dot(along) / (radius_ * radius_);
-    if (s < S(1)) outward += Ball::slope(s) * along;
+    surface.reach(metric_[j], place_[j] - place_[row.slave], S(1) / (radius_ * radius_));
   }
   Facing& facing = facing_[row.seat];
-  const S steepness = outward.norm();
-  if (!(steepness > S(0))) {
+  Point outward;
+  if (!surface.normal(radius_, outward)) {
     facing.outward.setZero();
     return std::numeric_limits<S>::max();
   }
-  outward /= steepness;
   if (facing.outward.isZero()) {
     facing.turn = first_turn;
   } else {
