@@ -131,7 +131,7 @@ TEST(Candidates, SleepWhereOrgansMoveTogether) {
 }
 
 TEST(Candidates, SleepBesideWhatIsStretchedAlongItsWall) {
-  // Twice as long, and as much thinner: near for what is stretched in any direction, not for this.
+  // Half as long again both ways along the wall, and as much thinner: near if it were stretched towards the other.
   Pile pile(1.2);
   for (auto& F : pile.F) F.diagonal() << 1.5, 1.5, 1 / 2.25;
   EXPECT_EQ(awake_rows(pile), 0);
