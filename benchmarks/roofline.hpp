@@ -18,15 +18,15 @@ namespace bench {
 /// all of them.
 template <class T, int chains>
 [[gnu::noinline]] T multiply_add(std::size_t rounds, T start) {
-  using Vector = typename hmps::detail::Raw<T>::Vector;
-  const Vector a = T(0.5) - Vector{}, b = T(0.25) - Vector{};
+  using Vector = hmps::Lanes<T>;
+  const Vector a(T(0.5)), b(T(0.25));
   Vector x[chains];
-  for (int c = 0; c < chains; ++c) x[c] = (start + T(c)) - Vector{};
+  for (int c = 0; c < chains; ++c) x[c] = Vector(start + T(c));
   for (std::size_t r = 0; r < rounds; ++r)
     for (int c = 0; c < chains; ++c) x[c] = x[c] * a + b;
   T sum = 0;
   for (int c = 0; c < chains; ++c)
-    for (int l = 0; l < hmps::Lanes<T>::width; ++l) sum += x[c][l];
+    for (int l = 0; l < hmps::Lanes<T>::width; ++l) sum += x[c].lane[l];
   return sum;
 }
 /// Operations of `multiply_add`, not counting the last sum.
@@ -42,15 +42,13 @@ class Gather {
  public:
   Gather() : values_(2048 / sizeof(T) + 2 * width, T(1)) {}
   [[gnu::noinline]] T operator()() const {
-    typename hmps::detail::Raw<T>::Vector sum[4] = {}, x;
+    hmps::Lanes<T> sum[4];
+    for (auto& part : sum) part = hmps::Lanes<T>(0);
     for (std::size_t i = 0; i < 2048 / sizeof(T); i += width)
-      for (std::size_t k = 0; k < 4; ++k) {
-        __builtin_memcpy(&x, values_.data() + i + k + 1, sizeof(x));
-        sum[k] += x;
-      }
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += hmps::load(values_.data() + i + k + 1);
     T total = 0;
     for (const auto& part : sum)
-      for (std::size_t l = 0; l < width; ++l) total += part[l];
+      for (std::size_t l = 0; l < width; ++l) total += part.lane[l];
     return total;
   }
   [[nodiscard]] static double bytes() { return 4 * 2048; }

@@ -64,13 +64,11 @@ class BlockOfParticles {
  private:
   template <class Value>
   [[nodiscard]] HMPS_INLINE T gather(Value&& value) const {
-    T result;
-    for (int l = 0; l < T::width; ++l) {
+    return lanes_of<K>([&](int l) HMPS_INLINE_LAMBDA {
       const Index i = particle(l);
       // Empty lanes take the first particle's parameters, with which nothing can go wrong.
-      result.lane[l] = static_cast<K>(value(i == Blocks<K, D>::none ? particle(0) : i));
-    }
-    return result;
+      return static_cast<K>(value(i == Blocks<K, D>::none ? particle(0) : i));
+    });
   }
 
   const Blocks<K, D>& blocks_;

@@ -117,9 +117,7 @@ class BondList : public Blocks<K, D> {
       for (std::size_t l = 0; l < width; ++l) neighbour[l] = static_cast<Index>(first_slot + l);
     }
     [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const {
-      Lanes<K> result;
-      for (std::size_t l = 0; l < width; ++l) result.lane[l] = values[neighbour[l]];
-      return result;
+      return lanes_of<K>([&](int l) HMPS_INLINE_LAMBDA { return values[neighbour[l]]; });
     }
     static constexpr bool skips = false;
     [[nodiscard]] HMPS_INLINE static constexpr bool along(int) { return true; }

@@ -32,8 +32,29 @@ TYPED_TEST(LanesOf, AreSixtyFourBytesWhateverTheInstructionSet) {
   EXPECT_EQ(alignof(L), 64u);
   EXPECT_EQ(static_cast<std::size_t>(L::width) * sizeof(TypeParam), 64u);
   EXPECT_EQ(sizeof(hmps::LaneMask<TypeParam>), 64u);
-  static_assert(std::is_trivially_copyable_v<L>);
   static_assert(std::is_trivially_default_constructible_v<L>);
+  static_assert(std::is_trivially_destructible_v<L>);
+}
+
+TYPED_TEST(LanesOf, CopyEveryLaneWhereverItLies) {
+  using T = TypeParam;
+  using L = hmps::Lanes<T>;
+  const L a = this->ramp(-3.5, 0.75);
+  const L copied = a;
+  L assigned = this->ramp(1, 1);
+  assigned = a;
+  T around[L::width + 2] = {};
+  hmps::store(around + 1, a);
+  const L loaded = hmps::load(around + 1);
+  const L made = hmps::lanes_of<T>([&](int l) { return a.lane[l]; });
+  for (int l = 0; l < L::width; ++l) {
+    EXPECT_EQ(copied.lane[l], a.lane[l]);
+    EXPECT_EQ(assigned.lane[l], a.lane[l]);
+    EXPECT_EQ(loaded.lane[l], a.lane[l]);
+    EXPECT_EQ(made.lane[l], a.lane[l]);
+  }
+  EXPECT_EQ(around[0], T(0));
+  EXPECT_EQ(around[L::width + 1], T(0));
 }
 
 TYPED_TEST(LanesOf, ComputeLikeNumbersLaneByLane) {
