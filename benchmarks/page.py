@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes docs/benchmarks.md from the figures of hmps_bench.
+"""Writes a page of the documentation from the figures of hmps_bench.
 
 Usage: page.py BENCHMARKS_JSON PAGE
 """
@@ -25,10 +25,12 @@ def read(path):
 
 
 def machine():
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return "an unnamed processor"
+    """The processor and its widest registers."""
+    entries = (line.split(":", 1) for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines() if ":" in line)
+    about = {key.strip(): value.strip() for key, value in entries}
+    flags = about.get("flags", "").split()
+    widest = next((name for name in ("AVX512F", "AVX2", "AVX", "SSE2") if name.lower() in flags), None)
+    return about.get("model name", "an unnamed processor") + (f" with {widest.removesuffix('F')}" if widest else "")
 
 
 def digits(value, count=3):
@@ -61,6 +63,9 @@ class Page:
     def nanoseconds(self, name):
         return 1e3 / self.rate(name)
 
+    def peak(self, kind):
+        return max(run["FLOP"] for name, run in self.runs.items() if name.startswith(f"roofline/fma/{kind}/"))
+
     def sizes(self, prefix):
         return sorted({int(name[len(prefix):].split("/")[0]) for name in self.runs if name.startswith(prefix)})
 
@@ -76,12 +81,12 @@ class Page:
                          ".bench.cpp`, one program, `hmps_bench`, which takes the arguments of Google Benchmark "
                          "(`benchmarks/run --benchmark_filter=step/box`). All figures of a run are in "
                          "`results/benchmarks/benchmarks.json`.")
-        load = self.context.get("load_avg", [0])
+        others = int(self.context.get("others_running", 0))
         yield from words(f"Compiled by {self.context.get('compiler', 'an unnamed compiler')} for this machine; run on "
                          f"{machine()}, {self.context['num_cpus']} cores, {caches}. Medians; one thread by the time of "
-                         f"the processor, several by the clock. When the run began, {digits(load[0], 2)} other "
-                         "processes were running" + (": figures for several threads mean little then."
-                                                     if load[0] > 0.5 else "."))
+                         f"the processor, several by the clock. When the run began, {others or 'no'} other "
+                         f"process{'' if others == 1 else 'es'} kept the machine busy" +
+                         (": figures for several threads mean little then." if others else "."))
 
     def step(self):
         yield from ["## The whole step", ""]
@@ -134,7 +139,7 @@ class Page:
         yield from words("Measured on one core: multiply-adds in registers, a = b + s c over working sets of three "
                          "arrays, and 64 bytes from places that are not aligned in the first-level cache, as bonds read "
                          "the values of neighbours that follow each other (`benchmarks/roofline.hpp`).")
-        rows = [[f"multiply-adds, {kind}", f"{self.runs[f'roofline/fma/{kind}']['FLOP'] * 1e-9:.0f} GFLOP/s"]
+        rows = [[f"multiply-adds, {kind}", f"{self.peak(kind) * 1e-9:.0f} GFLOP/s"]
                 for kind in ("float", "double")]
         rows += [[f"neighbours, {kind}", f"{self.runs[f'roofline/gather/{kind}']['bytes_per_second'] * 1e-9:.0f} GB/s"]
                  for kind in ("float", "double")]
@@ -173,7 +178,7 @@ class Page:
             for kind in ("float", "double"):
                 run = self.runs[name.format(kind)]
                 row += [digits(self.nanoseconds(name.format(kind))),
-                        f"{100 * run['FLOP'] / self.runs[f'roofline/fma/{kind}']['FLOP']:.0f} %"]
+                        f"{100 * run['FLOP'] / self.peak(kind):.0f} %"]
             rows.append(row)
         yield from table(["Part", "float, ns", "of the peak", "double, ns", "of the peak"], rows)
         for kind in ("float", "double"):

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The limits of one core, with which the step is compared:
 //
-//   roofline/fma/KIND          multiply-adds in registers; the counter FLOP is operations per second
+//   roofline/fma/KIND/CHAINS   multiply-adds in registers, so many lanes side by side (see peak_flop); the counter FLOP
+//                              is operations per second
 //   roofline/gather/KIND       64 bytes from places that are not aligned, in the first-level cache; bytes per second
 //   roofline/triad/KIBIBYTES   a = b + s c over a working set of this size; bytes per second
 #include "roofline.hpp"
+
+#include <fstream>
 
 #include "support.hpp"
 
@@ -46,10 +49,22 @@ constexpr const char* compiler = "clang++ " __clang_version__;
 constexpr const char* compiler = "g++ " __VERSION__;
 #endif
 
+/// Threads of other processes that run at this moment, where the system tells.
+int others_running() {
+  std::ifstream file("/proc/loadavg");
+  double load[3];
+  int running = 1;
+  if (!(file >> load[0] >> load[1] >> load[2] >> running)) return 0;
+  return running - 1;  // this one
+}
+
 [[maybe_unused]] const bool added = [] {
   benchmark::AddCustomContext("compiler", compiler);
-  benchmark::RegisterBenchmark("roofline/fma/float", fma<float, 12>);
-  benchmark::RegisterBenchmark("roofline/fma/double", fma<double, 12>);
+  benchmark::AddCustomContext("others_running", std::to_string(others_running()));
+  benchmark::RegisterBenchmark("roofline/fma/float/6", fma<float, 6>);
+  benchmark::RegisterBenchmark("roofline/fma/float/12", fma<float, 12>);
+  benchmark::RegisterBenchmark("roofline/fma/double/6", fma<double, 6>);
+  benchmark::RegisterBenchmark("roofline/fma/double/12", fma<double, 12>);
   benchmark::RegisterBenchmark("roofline/gather/float", gather<float>);
   benchmark::RegisterBenchmark("roofline/gather/double", gather<double>);
   for (const std::size_t kibibytes : {16u, 256u, 512u, 4096u, 16384u, 65536u, 262144u})
