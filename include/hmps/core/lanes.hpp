@@ -239,7 +239,7 @@ template <class T>
   using Mask = typename detail::Register<T>::Mask;
   using Vector = typename detail::Register<T>::Vector;
   HMPS_EACH_REGISTER {
-    Mask bit, x;
+    Mask bit{}, x;
     for (int k = 0; k < detail::Register<T>::width; ++k) bit[k] = Bits{1} << (l + k);
     const Mask all = static_cast<Bits>(lanes) - Mask{};
     const Vector v = value - Vector{};
@@ -259,7 +259,7 @@ template <class T, class F>
   Lanes<T> result;
 #if defined(HMPS_EACH_REGISTER)
   HMPS_EACH_REGISTER {
-    typename detail::Register<T>::Vector x;
+    typename detail::Register<T>::Vector x{};  // g++ 12 does not see that all of it is written
     for (int k = 0; k < detail::Register<T>::width; ++k) x[k] = f(l + k);
     __builtin_memcpy(result.lane + l, &x, sizeof(x));
   }
