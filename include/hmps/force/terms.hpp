@@ -64,11 +64,13 @@ class BlockOfParticles {
  private:
   template <class Value>
   [[nodiscard]] HMPS_INLINE T gather(Value&& value) const {
-    return lanes_of<K>([&](int l) HMPS_INLINE_LAMBDA {
+    T result;
+    for (int l = 0; l < T::width; ++l) {
       const Index i = particle(l);
       // Empty lanes take the first particle's parameters, with which nothing can go wrong.
-      return static_cast<K>(value(i == Blocks<K, D>::none ? particle(0) : i));
-    });
+      result.lane[l] = static_cast<K>(value(i == Blocks<K, D>::none ? particle(0) : i));
+    }
+    return result;
   }
 
   const Blocks<K, D>& blocks_;
