@@ -44,7 +44,7 @@ struct Register {
   static constexpr int width = static_cast<int>(bytes / sizeof(T));
 };
 /// Visits lanes a register at a time, from lane `l` on: GCC keeps vectors that are larger than a register in memory
-/// from one operation to the next, at twenty times the cost.
+/// from one operation to the next, at eight times the cost.
 #define HMPS_EACH_REGISTER                                                                       \
   _Pragma("GCC unroll 4") for (int l = 0; l < static_cast<int>(detail::lanes_bytes / sizeof(T)); \
                                l += detail::Register<T>::width)
