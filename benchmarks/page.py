@@ -73,8 +73,8 @@ class Page:
         return sorted({int(n.split("/")[-1]) for n in self.runs if n.startswith(f"step/box/float/{PAPER}/")})
 
     def preface(self):
-        caches = ", ".join(f"L{c['level']} {c['size'] // 1024} KiB" for c in self.context["caches"]
-                           if c["type"] != "Instruction")
+        caches = "".join(f", L{c['level']} {c['size'] // 1024} KiB" for c in self.context["caches"]
+                         if c["type"] != "Instruction")
         yield from ["# What a step costs", ""]
         yield from words("This page is written by `benchmarks/run`; nothing in it is typed by hand. Every component of "
                          "the library has its benchmarks, by Google Benchmark: `benchmarks/hmps/<topic>/<header>"
@@ -83,7 +83,7 @@ class Page:
                          "`results/benchmarks/benchmarks.json`.")
         others = int(self.context.get("others_running", 0))
         yield from words(f"Compiled by {self.context.get('compiler', 'an unnamed compiler')} for this machine; run on "
-                         f"{machine()}, {self.context['num_cpus']} cores, {caches}. Medians; one thread by the time of "
+                         f"{machine()}, {self.context['num_cpus']} cores{caches}. Medians; one thread by the time of "
                          f"the processor, several by the clock. When the run began, {others or 'no'} other "
                          f"process{'' if others == 1 else 'es'} kept the machine busy" +
                          (": figures for several threads mean little then." if others else "."))

@@ -96,12 +96,13 @@ namespace detail {
 /// sum_j |r_ij - F_i r0_ij|^2 w_ij in m2, \paper{9}, of the particles of one block, from displacements u: the misfit is
 /// u_j - u_i - (F_i - 1) r0_ij.
 template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
-[[nodiscard]] HMPS_INLINE Lanes<K> misfit_lanes(const B& bonds, std::size_t block, const SlotArrays<K>& displacement,
+[[nodiscard]] HMPS_INLINE Lanes<K> misfit_lanes(const B& bonds, std::size_t block,
+                                                const typename B::template Slots<std::size_t{D}>& displacement,
                                                 const MatrixView<T, D>& F) {
   const std::size_t slot = block * B::width;
   Vector<Lanes<K>, D> u;
   Matrix<Lanes<K>, D> strain;
-  for (int d = 0; d < D; ++d) u[d] = load(displacement[static_cast<std::size_t>(d)] + slot);
+  for (int d = 0; d < D; ++d) u[d] = displacement.lanes(static_cast<std::size_t>(d), slot);
   for (int k = 0; k < D * D; ++k) {
     strain(k % D, k / D) = Lanes<K>(0);
     for (std::size_t l = 0; l < B::width; ++l)
@@ -111,9 +112,10 @@ template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
   }
   Lanes<K> sum(0);
   bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+    const auto neighbour = bond.gather(displacement);
     Lanes<K> squares(0);
     for (int row = 0; row < D; ++row) {
-      Lanes<K> misfit = bond.gather(displacement[static_cast<std::size_t>(row)]) - u[row];
+      Lanes<K> misfit = neighbour[static_cast<std::size_t>(row)] - u[row];
       for (int col = 0; col < D; ++col)
         if (bond.along(col)) misfit = misfit - strain(row, col) * bond.offset(col);
       squares += misfit * misfit;
@@ -140,7 +142,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   require_size(F, bonds.size(), "deformation gradients");
   require_positive(volume, bonds.size(), "volume", "m3");
   using K = typename B::Scalar;
-  SlotArrays<K> displacement(D, bonds.slot_count());
+  typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
   const Vector<double, D> common = detail::common_displacement(bonds, x);
   execute(bonds.block_count(),
           [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
@@ -177,11 +179,11 @@ template <class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Ser
       [&](std::size_t i) {
         const auto scaled = [&](std::size_t k) {
           const Matrix<double, D> gradient = F[k].template cast<double>();
-          return static_cast<double>(scales[0][bonds.slot(k)]) * (determinant(gradient) - 1);
+          return static_cast<double>(scales(0, bonds.slot(k))) * (determinant(gradient) - 1);
         };
         double sum = scaled(i);
         bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
-        const double theta = static_cast<double>(scales[0][bonds.slot(i)]) * sum;
+        const double theta = static_cast<double>(scales(0, bonds.slot(i))) * sum;
         return static_cast<double>(at_particle(volume, i)) * static_cast<double>(detail::material_at(bulk, i)) * 0.5 *
                theta * theta;
       },

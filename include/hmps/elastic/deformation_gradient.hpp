@@ -15,14 +15,14 @@ namespace detail {
 
 /// Brings `view` of the particles of `block` into `slots`, in the scalar type of the kernels.
 /// `value(number, slot, component)` is what is kept of each number.
-template <class K, int D, class T, class Value>
-HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view,
-                       SlotArrays<K>& slots, Value&& value) {
+template <class K, int D, class T, class Slots, class Value>
+HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view, Slots& slots,
+                       Value&& value) {
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
   const bool consecutive = blocks.consecutive(block);
   for (int c = 0; c < D; ++c) {
-    K* target = slots[static_cast<std::size_t>(c)] + first;
+    const auto component = static_cast<std::size_t>(c);
     if (consecutive) {
       Lanes<K> staged;  // apart from the slots: the compiler sees that no source is overwritten, and works in registers
       const std::size_t i = blocks.particle(first);
@@ -32,18 +32,17 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
       } else {
         for (std::size_t l = 0; l < width; ++l) staged.lane[l] = value(view(i + l, c), first + l, c);
       }
-      store(target, staged);
+      slots.keep(component, first, staged);
     } else {
       for (std::size_t l = 0; l < width; ++l) {
         const Index i = blocks.particle(first + l);
-        if (i != Blocks<K, D>::none) target[l] = value(view(i, c), first + l, c);
+        if (i != Blocks<K, D>::none) slots(component, first + l) = value(view(i, c), first + l, c);
       }
     }
   }
 }
-template <class K, int D, class T>
-HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view,
-                       SlotArrays<K>& slots) {
+template <class K, int D, class T, class Slots>
+HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view, Slots& slots) {
   stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
 }
 
@@ -65,9 +64,9 @@ template <class K, int D, class T>
 /// taken in double precision before they are rounded to that of the kernels: what a bond needs of a
 /// position is lost in the position's leading digits, and how far the body has travelled is nothing
 /// to a bond.
-template <class K, int D, class T>
+template <class K, int D, class T, class Slots>
 HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& x,
-                                    const Vector<double, D>& common, SlotArrays<K>& slots) {
+                                    const Vector<double, D>& common, Slots& slots) {
   stage(blocks, block, x, slots, [&](T number, std::size_t slot, int c) {
     return static_cast<K>((static_cast<double>(number) - blocks.reference_slots(c)[slot]) - common[c]);
   });
@@ -107,20 +106,20 @@ HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const Vi
 /// error functional of \paper{9} as \paper{10} asks. Written in displacements u = x - x0, in which it
 /// reads F = 1 + [sum (u_j - u_i) (x) r0 w] A^-1.
 template <Bonds B, class K = typename B::Scalar, int D = B::dimension>
-[[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> deformation_gradient_lanes(const B& bonds, std::size_t block,
-                                                                         const SlotArrays<K>& displacement,
-                                                                         const Matrix<Lanes<K>, D>& shape_inverse) {
+[[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> deformation_gradient_lanes(
+    const B& bonds, std::size_t block, const typename B::template Slots<std::size_t{D}>& displacement,
+    const Matrix<Lanes<K>, D>& shape_inverse) {
   using T = Lanes<K>;
   const std::size_t slot = block * B::width;
   Vector<T, D> u;
   Matrix<T, D> sum;
-  for (int d = 0; d < D; ++d) u[d] = load(displacement[static_cast<std::size_t>(d)] + slot);
+  for (int d = 0; d < D; ++d) u[d] = displacement.lanes(static_cast<std::size_t>(d), slot);
   for (int k = 0; k < D * D; ++k) sum(k % D, k / D) = T(0);
   bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
     const T w = bond.weight();
+    const auto neighbour = bond.gather(displacement);
     Vector<T, D> relative;
-    for (int row = 0; row < D; ++row)
-      relative[row] = w * (bond.gather(displacement[static_cast<std::size_t>(row)]) - u[row]);
+    for (int row = 0; row < D; ++row) relative[row] = w * (neighbour[static_cast<std::size_t>(row)] - u[row]);
     for (int col = 0; col < D; ++col)
       if (bond.along(col))
         for (int row = 0; row < D; ++row) sum(row, col) += relative[row] * bond.offset(col);
@@ -158,7 +157,7 @@ void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const Matri
   require_size(x, bonds.size(), "positions");
   require_size(F, bonds.size(), "deformation gradients");
   using K = typename B::Scalar;
-  SlotArrays<K> displacement(D, bonds.slot_count());
+  typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
   const Vector<double, D> common = detail::common_displacement(bonds, x);
   execute(bonds.block_count(),
           [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });

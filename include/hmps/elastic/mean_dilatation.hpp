@@ -81,30 +81,32 @@ template <class Bulk>
 
 namespace detail {
 
-/// The sum of `values`, of `SlotArrays`, over each particle of `block` and its bonded neighbours.
+/// The sum of `values` over each particle of `block` and its bonded neighbours.
 template <class B, class K = typename B::Scalar>
-[[nodiscard]] HMPS_INLINE Lanes<K> sum_over_neighbourhood(const B& bonds, std::size_t block, const K* values) {
+[[nodiscard]] HMPS_INLINE Lanes<K> sum_over_neighbourhood(const B& bonds, std::size_t block,
+                                                          const typename B::template Slots<1>& values) {
   using T = Lanes<K>;
-  T sum = load(values + block * B::width);
-  bonds.for_each_row(block, [&](const auto& bond)
-                                HMPS_INLINE_LAMBDA { sum += select(bond.weight() > K(0), bond.gather(values), T(0)); });
+  T sum = values.lanes(0, block * B::width);
+  bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+    sum += select(bond.weight() > K(0), bond.gather(values)[0], T(0));
+  });
   return sum;
 }
 
 /// The d of `MeanDilatation` for every slot of `bonds`.
 template <class B, class K = typename B::Scalar>
-[[nodiscard]] SlotArrays<K> neighbourhood_scales(const B& bonds) {
+[[nodiscard]] typename B::template Slots<1> neighbourhood_scales(const B& bonds) {
   using T = Lanes<K>;
   // An iteration leaves about two thirds of the error, in boxes, sheets, bars and clouds: 25 for float, 70 for double.
   constexpr int most_iterations = 100;
-  SlotArrays<K> scales(1, bonds.slot_count()), next(scales);
-  std::fill_n(scales[0], bonds.slot_count(), K(1));
+  typename B::template Slots<1> scales(bonds.slot_count()), next(scales);
+  for (std::size_t slot = 0; slot < bonds.slot_count(); ++slot) scales(0, slot) = K(1);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     K error = 0;
     for (std::size_t block = 0; block < bonds.block_count(); ++block) {
       const std::size_t slot = block * B::width;
-      const T own = load(scales[0] + slot), sum = sum_over_neighbourhood(bonds, block, scales[0]), mean = own * sum;
-      store(next[0] + slot, sqrt(own / sum));
+      const T own = scales.lanes(0, slot), sum = sum_over_neighbourhood(bonds, block, scales), mean = own * sum;
+      next.keep(0, slot, sqrt(own / sum));
       for (int l = 0; l < T::width; ++l) error = std::max(error, std::abs(mean.lane[l] - K(1)));
     }
     if (error < 16 * std::numeric_limits<K>::epsilon()) break;

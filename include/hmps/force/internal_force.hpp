@@ -46,10 +46,11 @@ class InternalForce {
   explicit InternalForce(const B& bonds, Terms... terms)
       : bonds_(&bonds),
         terms_(std::move(terms)...),
-        displacement_(couples ? D : 0, bonds.slot_count()),
-        velocity_(damps ? D : 0, bonds.slot_count()),
-        coupling_(couples ? D * D + 1 : 0, bonds.slot_count()),
-        dilatation_(dilates ? 2 : 0, bonds.slot_count()) {
+        displacement_(bonds.slot_count()),
+        velocity_(bonds.slot_count()),
+        coupling_(bonds.slot_count()),
+        dilatation_(bonds.slot_count()),
+        pressure_(bonds.slot_count()) {
     if constexpr (damps) {
       double sum = 0;
       std::apply([&](const auto&... term) { (add_damping(term, sum), ...); }, terms_);
@@ -116,8 +117,8 @@ class InternalForce {
   [[nodiscard]] const B& bonds() const { return *bonds_; }
   /// Bytes of scratch memory.
   [[nodiscard]] std::size_t bytes() const {
-    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + dilatation_.bytes() + scales_.bytes() +
-           (dilated_.size() + coupled_.size() + summed_.size()) * sizeof(Index);
+    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + dilatation_.bytes() + pressure_.bytes() +
+           scales_.bytes() + (dilated_.size() + coupled_.size() + summed_.size()) * sizeof(Index);
   }
 
  private:
@@ -184,23 +185,23 @@ class InternalForce {
     const std::size_t slot = block * B::width;
     const Matrix<T, D> F =
         detail::deformation_gradient_lanes(*bonds_, block, displacement_, bonds_->shape_inverse_lanes(block));
-    for (int k = 0; k < D * D; ++k) store(coupling_[static_cast<std::size_t>(k)] + slot, F(k % D, k / D));
-    store(dilatation_[own] + slot, load(scales_[0] + slot) * (determinant(F) - T(1)));
+    for (int k = 0; k < D * D; ++k) coupling_.keep(static_cast<std::size_t>(k), slot, F(k % D, k / D));
+    dilatation_.keep(0, slot, scales_.lanes(0, slot) * (determinant(F) - T(1)));
   }
   /// Second of them: d U'(theta).
   void press(std::size_t block) {
     const std::size_t slot = block * B::width;
-    const T d = load(scales_[0] + slot);
-    const T theta = d * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[own]);
+    const T d = scales_.lanes(0, slot);
+    const T theta = d * detail::sum_over_neighbourhood(*bonds_, block, dilatation_);
     const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block), F = kept_gradient(block);
     const BlockOfParticles<K, D> particles(*bonds_, block, F, inverse);
     T pressure(0);
     std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
-    store(dilatation_[shared] + slot, d * pressure);
+    pressure_.keep(0, slot, d * pressure);
   }
   [[nodiscard]] Matrix<T, D> kept_gradient(std::size_t block) const {
     Matrix<T, D> F;
-    for (int k = 0; k < D * D; ++k) F(k % D, k / D) = load(coupling_[static_cast<std::size_t>(k)] + block * B::width);
+    for (int k = 0; k < D * D; ++k) F(k % D, k / D) = coupling_.lanes(static_cast<std::size_t>(k), block * B::width);
     return F;
   }
 
@@ -221,14 +222,14 @@ class InternalForce {
     coupling.c = T(0);
     std::apply([&](const auto&... term) { (add_coupling(term, particles, coupling), ...); }, terms_);
     if constexpr (dilates) {
-      const T pressure = load(scales_[0] + slot) * detail::sum_over_neighbourhood(*bonds_, block, dilatation_[shared]);
+      const T pressure = scales_.lanes(0, slot) * detail::sum_over_neighbourhood(*bonds_, block, pressure_);
       const Matrix<T, D> push = product(cofactor(F), inverse);
       for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pressure * push(k % D, k / D);
     }
     // The last sweep works on displacements: c r_ij = c r0_ij + c (u_j - u_i).
     for (int d = 0; d < D; ++d) coupling.M(d, d) += coupling.c;
-    for (int k = 0; k < D * D; ++k) store(coupling_[static_cast<std::size_t>(k)] + slot, coupling.M(k % D, k / D));
-    store(coupling_[D * D] + slot, coupling.c);
+    for (int k = 0; k < D * D; ++k) coupling_.keep(static_cast<std::size_t>(k), slot, coupling.M(k % D, k / D));
+    coupling_.keep(D * D, slot, coupling.c);
   }
 
   /// The last sweep: the sum in `Coupling` over the bonds of the particles of `block`.
@@ -246,23 +247,25 @@ class InternalForce {
       for (int col = 0; col < D; ++col) {
         const T asymmetry = bonds_->asymmetry_lanes(block, col);
         for (int row = 0; row < D; ++row)
-          force[row] += load(coupling_[static_cast<std::size_t>(row + D * col)] + slot) * asymmetry;
+          force[row] += coupling_.lanes(static_cast<std::size_t>(row + D * col), slot) * asymmetry;
       }
-      c = load(coupling_[D * D] + slot);
-      for (int d = 0; d < D; ++d) u[d] = load(displacement_[static_cast<std::size_t>(d)] + slot);
+      c = coupling_.lanes(D * D, slot);
+      for (int d = 0; d < D; ++d) u[d] = displacement_.lanes(static_cast<std::size_t>(d), slot);
     }
     if constexpr (damps)
-      for (int d = 0; d < D; ++d) v[d] = load(velocity_[static_cast<std::size_t>(d)] + slot);
+      for (int d = 0; d < D; ++d) v[d] = velocity_.lanes(static_cast<std::size_t>(d), slot);
 
     bonds_->for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
       const T w = bond.weight();
       if constexpr (couples) {
-        const T stretch = c + bond.gather(coupling_[D * D]);
+        const auto coupling = bond.gather(coupling_);
+        const auto displacement = bond.gather(displacement_);
+        const T stretch = c + coupling[D * D];
         const auto stretched = [&](int row) HMPS_INLINE_LAMBDA {
-          return stretch * (bond.gather(displacement_[static_cast<std::size_t>(row)]) - u[row]);
+          return stretch * (displacement[static_cast<std::size_t>(row)] - u[row]);
         };
         const auto carried = [&](int row, int col) HMPS_INLINE_LAMBDA {
-          return bond.gather(coupling_[static_cast<std::size_t>(row + D * col)]) * bond.offset(col);
+          return coupling[static_cast<std::size_t>(row + D * col)] * bond.offset(col);
         };
         // What a bond pulls is apart from the sum of all bonds, so that one need not wait for the one before.
         if constexpr (std::remove_cvref_t<decltype(bond)>::skips) {
@@ -280,8 +283,10 @@ class InternalForce {
           }
         }
       }
-      if constexpr (damps)
-        for (int d = 0; d < D; ++d) drag[d] += w * (bond.gather(velocity_[static_cast<std::size_t>(d)]) - v[d]);
+      if constexpr (damps) {
+        const auto velocity = bond.gather(velocity_);
+        for (int d = 0; d < D; ++d) drag[d] += w * (velocity[static_cast<std::size_t>(d)] - v[d]);
+      }
     });
     if constexpr (damps)
       for (int d = 0; d < D; ++d) force[d] += damping_ * drag[d];
@@ -293,8 +298,10 @@ class InternalForce {
 
   const B* bonds_;
   std::tuple<Terms...> terms_;
-  enum : std::size_t { own, shared };  // components of dilatation_: d (J - 1), d U'
-  SlotArrays<K> displacement_, velocity_, coupling_, dilatation_, scales_;
+  typename B::template Slots<std::size_t{couples ? D : 0}> displacement_;
+  typename B::template Slots<std::size_t{damps ? D : 0}> velocity_;
+  typename B::template Slots<std::size_t{couples ? D * D + 1 : 0}> coupling_;                // M, c
+  typename B::template Slots<std::size_t{dilates ? 1 : 0}> dilatation_, pressure_, scales_;  // d (J - 1), d U', d
   bool restricted_ = false;
   std::vector<Index> dilated_, coupled_, summed_;  // if restricted, the blocks that each sweep visits
   K damping_ = 0;

@@ -114,7 +114,8 @@ template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DilatationTerm<Term, K, D>;
 
 /// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows, of one type or
-/// of several, with `row.gather(values)` (a value of the neighbour in each lane), `row.offset(c)` (component c of r0),
+/// of several, with `row.gather(slots)` (from `Slots<N>`, what `[c]` gives component c of for the neighbour in each
+/// lane), `row.offset(c)` (component c of r0),
 /// `row.along(c)` (false where that is zero for all lanes and may be skipped), the constant `skips` (whether it ever
 /// is) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and `LatticeBonds`.
 template <class B>

@@ -15,42 +15,9 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/neighbours/shape_tensor.hpp"
+#include "hmps/neighbours/slots.hpp"
 
 namespace hmps {
-
-/// One array per component with one number per slot, in the scalar type of the kernels. `margin`
-/// slots before the first and behind the last may be read, so that a run of lanes that hangs over
-/// either end needs no test.
-template <class K>
-class SlotArrays {
- public:
-  SlotArrays() = default;
-  SlotArrays(std::size_t components, std::size_t slots) : pitch_(pitch(slots)), values_(components * pitch_, K(0)) {}
-
-  [[nodiscard]] K* operator[](std::size_t component) { return values_.data() + component * pitch_ + margin; }
-  [[nodiscard]] const K* operator[](std::size_t component) const {
-    return values_.data() + component * pitch_ + margin;
-  }
-  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(K); }
-
-  /// Asks for all components of the lanes from `slot` on, which are going to be read soon; nothing happens beyond the
-  /// last slot.
-  HMPS_INLINE void prefetch(std::size_t slot) const {
-    if (slot + 2 * margin >= pitch_) return;
-    for (std::size_t k = margin + slot; k < values_.size(); k += pitch_) detail::prefetch(values_.data() + k);
-  }
-
- private:
-  static constexpr std::size_t margin = static_cast<std::size_t>(Lanes<K>::width);
-  /// An odd number of cache lines, so that equal slots of several components do not compete for the
-  /// same set of a cache.
-  static constexpr std::size_t pitch(std::size_t slots) {
-    const std::size_t lines = (slots + 2 * margin + margin - 1) / margin;
-    return (lines | 1) * margin;
-  }
-  std::size_t pitch_ = 0;
-  std::vector<K> values_;
-};
 
 /// The particles in the order in which the sweeps visit them: `block()` of them at a time, each in
 /// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
@@ -85,12 +52,12 @@ class Blocks {
   [[nodiscard]] Matrix<K, D> shape_inverse(std::size_t particle) const {
     Matrix<K, D> inverse;
     for (int r = 0; r < D; ++r)
-      for (int c = 0; c < D; ++c) inverse(r, c) = shape_[symmetric(r, c)][shape_slot(slot_of_[particle])];
+      for (int c = 0; c < D; ++c) inverse(r, c) = shape_(symmetric(r, c), shape_slot(slot_of_[particle]));
     return inverse;
   }
   /// tr A = sum |r0|^2 w of `particle`, in m2, the sum in \paper{20}.
   [[nodiscard]] K shape_trace(std::size_t particle) const {
-    return K(1) / shape_[inverse_trace][shape_slot(slot_of_[particle])];
+    return K(1) / shape_(inverse_trace, shape_slot(slot_of_[particle]));
   }
 
   /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}): of the
@@ -150,7 +117,7 @@ class Blocks {
         run = run && particle_of_[b * width + l] != none && particle_of_[b * width + l] == particle_of_[b * width] + l;
       consecutive_[b] = run ? 1 : 0;
     }
-    shape_ = SlotArrays<K>(shape_components, slot_count());
+    shape_ = Shapes(slot_count());
     shape_block_.resize(block_count());
     std::iota(shape_block_.begin(), shape_block_.end(), Index{0});
   }
@@ -161,10 +128,10 @@ class Blocks {
     const std::size_t slot = slot_of_[particle];
     const Matrix<double, D> inverse = shape.inverse(particle);
     for (int c = 0; c < D; ++c) {
-      shape_[asymmetry + static_cast<std::size_t>(c)][slot] = static_cast<K>(shape.asymmetry[c]);
-      for (int r = 0; r <= c; ++r) shape_[symmetric(r, c)][slot] = static_cast<K>(inverse(r, c));
+      shape_(asymmetry + static_cast<std::size_t>(c), slot) = static_cast<K>(shape.asymmetry[c]);
+      for (int r = 0; r <= c; ++r) shape_(symmetric(r, c), slot) = static_cast<K>(inverse(r, c));
     }
-    shape_[inverse_trace][slot] = static_cast<K>(1.0 / shape.A.trace());
+    shape_(inverse_trace, slot) = static_cast<K>(1.0 / shape.A.trace());
   }
   /// To be called when all shapes are kept: blocks whose particles have all the same neighbourhood, as inside a lattice
   /// and along its faces, share one copy of it from then on.
@@ -175,7 +142,7 @@ class Blocks {
       std::array<K, shape_components> first;
       bool uniform = true;
       for (std::size_t c = 0; c < shape_components; ++c) {
-        const K* lanes = shape_[c] + b * width;
+        const K* lanes = &shape_(c, b * width);
         first[c] = lanes[0];
         uniform = uniform && std::all_of(lanes, lanes + width, [&](K value) { return value == lanes[0]; });
       }
@@ -183,10 +150,9 @@ class Blocks {
       shape_block_[b] = uniform ? shared.emplace(first, next).first->second : next;
       if (shape_block_[b] == next) kept.push_back(b);
     }
-    SlotArrays<K> shapes(shape_components, kept.size() * width);
+    Shapes shapes(kept.size() * width);
     for (std::size_t c = 0; c < shape_components; ++c)
-      for (std::size_t k = 0; k < kept.size(); ++k)
-        std::copy_n(shape_[c] + kept[k] * width, width, shapes[c] + k * width);
+      for (std::size_t k = 0; k < kept.size(); ++k) shapes.keep(c, k * width, shape_.lanes(c, kept[k] * width));
     shape_ = std::move(shapes);
   }
   void keep_standard(const ShapeTensor<D>& shape) {
@@ -198,12 +164,13 @@ class Blocks {
   // Components of shape_: those of A^-1 on and above the diagonal, then these.
   static constexpr std::size_t asymmetry = D * (D + 1) / 2, inverse_trace = asymmetry + D,
                                shape_components = inverse_trace + 1;
+  using Shapes = SlotArrays<K, shape_components>;
 
   [[nodiscard]] std::size_t shape_slot(std::size_t slot) const {
     return shape_block_[slot / width] * width + slot % width;
   }
   [[nodiscard]] HMPS_INLINE Lanes<K> shape_lanes(std::size_t component, std::size_t block) const {
-    return load(shape_[component] + shape_block_[block] * width);
+    return shape_.lanes(component, shape_block_[block] * width);
   }
   [[nodiscard]] static constexpr std::size_t symmetric(int r, int c) {
     return static_cast<std::size_t>(r < c ? r + c * (c + 1) / 2 : c + r * (r + 1) / 2);
@@ -213,7 +180,7 @@ class Blocks {
   std::vector<Index> slot_of_;
   std::vector<std::uint8_t> consecutive_;
   std::array<std::vector<double>, D> reference_;
-  SlotArrays<K> shape_;
+  Shapes shape_;
   std::vector<Index> shape_block_;  ///< Where in shape_ the lanes of each block are.
   double standard_density_ = 0;
   double standard_lambda_ = 0;

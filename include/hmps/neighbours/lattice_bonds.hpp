@@ -109,6 +109,8 @@ class LatticeBonds : public Blocks<K, D> {
 
  public:
   using Base::width;
+  template <std::size_t N>
+  using Slots = SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
 
   /// Bonds all pairs of `reference` (m, any order, on one lattice) no further apart than the
   /// effective radius for which `bonded(i, j)` holds. Throws `InputError` for particles off the
@@ -153,7 +155,10 @@ class LatticeBonds : public Blocks<K, D> {
 
     static constexpr bool skips = true;
     [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
-    [[nodiscard]] HMPS_INLINE Lanes<K> gather(const K* values) const { return load(values + first); }
+    template <std::size_t N>
+    [[nodiscard]] HMPS_INLINE auto gather(const SlotArrays<K, N>& slots) const {
+      return slots.run(first);
+    }
     [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
     [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
   };

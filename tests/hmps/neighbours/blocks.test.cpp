@@ -13,26 +13,9 @@
 namespace {
 
 template <class K>
-class Slots : public testing::Test {};
+class BlocksOf : public testing::Test {};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(Slots, Scalars);
-
-// A run of lanes may hang over either end of a component.
-TYPED_TEST(Slots, HaveAMarginOfZerosAtBothEnds) {
-  constexpr auto width = static_cast<std::ptrdiff_t>(hmps::Lanes<TypeParam>::width);
-  hmps::SlotArrays<TypeParam> arrays(3, 40);
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t s = 0; s < 40; ++s) arrays[c][s] = static_cast<TypeParam>(100 * c + s + 1);
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::ptrdiff_t s = 1; s <= width; ++s) {
-      EXPECT_EQ(arrays[c][-s], TypeParam(0));
-      EXPECT_EQ(arrays[c][39 + s], TypeParam(0));
-    }
-    for (std::size_t s = 0; s < 40; ++s) EXPECT_EQ(arrays[c][s], static_cast<TypeParam>(100 * c + s + 1));
-  }
-  EXPECT_GE(arrays.bytes(), 3 * 40 * sizeof(TypeParam));
-  EXPECT_EQ(hmps::SlotArrays<TypeParam>(0, 40).bytes(), 0u);
-}
+TYPED_TEST_SUITE(BlocksOf, Scalars);
 
 /// Blocks in an order of the test's choice.
 template <class K>
@@ -47,7 +30,7 @@ struct Ordered : hmps::Blocks<K, 2> {
   }
 };
 
-TYPED_TEST(Slots, KeepTheReferenceConfigurationInTheOrderOfTheSweep) {
+TYPED_TEST(BlocksOf, KeepTheReferenceConfigurationInTheOrderOfTheSweep) {
   using K = TypeParam;
   constexpr std::size_t width = hmps::Blocks<K, 2>::width;
   const std::size_t n = 2 * width + 3;
@@ -97,7 +80,7 @@ struct Shared : hmps::Blocks<K, 2> {
   using hmps::Blocks<K, 2>::share_shapes;
 };
 
-TYPED_TEST(Slots, ShareTheShapesOfBlocksThatAreAlike) {
+TYPED_TEST(BlocksOf, ShareTheShapesOfBlocksThatAreAlike) {
   using K = TypeParam;
   constexpr std::size_t width = hmps::Blocks<K, 2>::width;
   const std::size_t n = 6 * width - 1;
@@ -123,7 +106,7 @@ TYPED_TEST(Slots, ShareTheShapesOfBlocksThatAreAlike) {
 }
 
 // A = 0.5 (1, 0)(1, 0)^T + 0.25 (0.5, 2)(0.5, 2)^T, by hand.
-TYPED_TEST(Slots, KeepTheShapeTensor) {
+TYPED_TEST(BlocksOf, KeepTheShapeTensor) {
   using K = TypeParam;
   const Ordered<K> blocks({{0, 0}, {1, 1}}, {0, 1});
   const K a = K(0.5) + K(0.0625), b = K(0.25), d = K(1), det = a * d - b * b;

@@ -64,17 +64,24 @@ template <class B>
 void sweep_meets_every_bond_once(const B& bonds) {
   using K = typename B::Scalar;
   constexpr int D = B::dimension;
-  hmps::SlotArrays<K> numbers(1, bonds.slot_count());
-  for (std::size_t slot = 0; slot < bonds.slot_count(); ++slot) numbers[0][slot] = static_cast<K>(slot);
+  typename B::template Slots<1> numbers(bonds.slot_count());
+  typename B::template Slots<3> more(bonds.slot_count());
+  for (std::size_t slot = 0; slot < bonds.slot_count(); ++slot) {
+    numbers(0, slot) = static_cast<K>(slot);
+    for (std::size_t c = 0; c < 3; ++c) more(c, slot) = static_cast<K>(3 * slot + c);
+  }
   ASSERT_GE(bonds.slot_count(), bonds.size());
   ASSERT_EQ(bonds.slot_count() % B::width, 0u);
   for (std::size_t block = 0; block < bonds.block_count(); ++block) {
     std::vector<std::map<std::size_t, std::pair<hmps::Vector<K, D>, K>>> found(B::width);
     bonds.for_each_row(block, [&](const auto& row) {
-      const hmps::Lanes<K> w = row.weight(), place = row.gather(numbers[0]);
+      const hmps::Lanes<K> w = row.weight(), place = row.gather(numbers)[0];
+      const auto components = row.gather(more);
       for (std::size_t l = 0; l < B::width; ++l) {
         EXPECT_GE(w.lane[l], K(0));
         if (!(w.lane[l] > K(0))) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+          EXPECT_EQ(hmps::Lanes<K>(components[c]).lane[l], 3 * place.lane[l] + static_cast<K>(c));
         hmps::Vector<K, D> r0;
         for (int c = 0; c < D; ++c) {
           r0[c] = hmps::Lanes<K>(row.offset(c)).lane[l];
