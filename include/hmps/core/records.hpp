@@ -86,16 +86,18 @@ HMPS_INLINE void gather_pieces(const T* records, const Index* index, std::array<
 
 }  // namespace detail
 
-/// The numbers that a record of `N` takes in memory: whole pieces, of which it is fetched; a single number needs none.
-template <class T, std::size_t N>
-inline constexpr std::size_t record_pitch = N == 1 ? 1
-                                                   : (N + detail::piece<T> - 1) / detail::piece<T>* detail::piece<T>;
+/// How many numbers apart records of `numbers` lie: whole pieces, of which they are fetched; a single number needs
+/// none.
+template <class T>
+[[nodiscard]] constexpr std::size_t record_pitch(std::size_t numbers) {
+  return numbers == 1 ? 1 : (numbers + detail::piece<T> - 1) / detail::piece<T> * detail::piece<T>;
+}
 
 /// The records at the places `index[0]`, `index[1]` and so on, one in each lane: `[c]` of what is returned are their
-/// numbers at place c. Records of `N` numbers lie `record_pitch` apart.
+/// numbers at place c. Records lie `record_pitch<T>(N)` apart.
 template <std::size_t N, class T>
 [[nodiscard]] HMPS_INLINE std::array<Lanes<T>, N> gather_records(const T* records, const Index* index) {
-  constexpr std::size_t pitch = record_pitch<T, N>;
+  constexpr std::size_t pitch = record_pitch<T>(N);
   std::array<Lanes<T>, N> components;
 #if defined(__GNUC__) || defined(__clang__)
   if constexpr (N > 1) {

@@ -102,7 +102,7 @@ class SlotRecords {
   [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(K); }
 
  private:
-  static constexpr std::size_t pitch = record_pitch<K, N>;
+  static constexpr std::size_t pitch = record_pitch<K>(N);
   std::vector<K> values_;
 };
 

@@ -17,7 +17,7 @@ TYPED_TEST_SUITE(Records, Scalars);
 /// Records of N numbers, no two of which are the same, end where their memory does.
 template <class T, std::size_t N>
 void every_lane_has_the_record_at_its_place() {
-  constexpr std::size_t width = static_cast<std::size_t>(hmps::Lanes<T>::width), pitch = hmps::record_pitch<T, N>;
+  constexpr std::size_t width = static_cast<std::size_t>(hmps::Lanes<T>::width), pitch = hmps::record_pitch<T>(N);
   static_assert(pitch >= N && pitch < N + 16 / sizeof(T));
   constexpr std::size_t count = 23;
   std::vector<T> memory(count * pitch);
