@@ -120,6 +120,7 @@ concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || Dilat
 /// is) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> && requires(const B& bonds) {
+  typename B::template Slots<1>;
   bonds.for_each_row(std::size_t{0}, [](const auto&) {});
 };
 
