@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cost.hpp"
-#include "hmps/core/lanes.hpp"
+#include "hmps/lanes/lanes.hpp"
 
 /// The limits of one core that the time of a kernel is compared with: multiply-adds, memory traffic, and what a bond
 /// reads of its neighbours, measured by code as portable as the library's.

@@ -7,6 +7,9 @@
 #include "body.hpp"
 #include "parts.hpp"
 
+#include "hmps/terms/record.hpp"
+#include "hmps/time/symplectic_euler.hpp"
+
 namespace stability {
 namespace {
 

@@ -7,6 +7,8 @@
 #include "body.hpp"
 #include "parts.hpp"
 
+#include "hmps/time/symplectic_euler.hpp"
+
 namespace stability {
 namespace {
 

@@ -8,6 +8,8 @@
 #include "body.hpp"
 #include "parts.hpp"
 
+#include "hmps/terms/record.hpp"
+
 namespace stability {
 namespace {
 

@@ -11,6 +11,8 @@
 #include "parts.hpp"
 #include "support.hpp"
 
+#include "hmps/terms/record.hpp"
+
 namespace verification {
 namespace {
 

@@ -60,7 +60,7 @@ std::string preface(double seconds) {
       '\n' + wrapped(
                  "Rows 7, 8 and 25 to 27 of the list from which the problems are taken are held by tests: energy by "
                  "`tests/hmps/time/symplectic_euler.test.cpp`, the largest step by "
-                 "`tests/hmps/time/stable_step.test.cpp` and [stability.md](stability.md), incline and slide by "
+                 "`tests/hmps/analysis/stable_step.test.cpp` and [stability.md](stability.md), incline and slide by "
                  "`tests/hmps/contact/incline.test.cpp`, stick by `tests/hmps/contact/penalty.test.cpp`.");
   return text + '\n' + wrapped("All runs took " + stability::digits(seconds / 60, 2) + " minutes of one core here.") +
          '\n';

@@ -9,6 +9,8 @@
 
 #include "method.hpp"
 
+#include "hmps/time/symplectic_euler.hpp"
+
 namespace verification {
 
 /// The paper's soft tissue, here called the seed law: kappa / mu = 300.

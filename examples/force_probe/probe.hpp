@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <hmps/contact/contact.hpp>
-#include <hmps/elastic/deformation_gradient.hpp>
-#include <hmps/elastic/elastic_force.hpp>
-#include <hmps/elastic/mooney_rivlin.hpp>
+#include <hmps/force/deformation_gradient.hpp>
+#include <hmps/terms/elastic.hpp>
+#include <hmps/laws/mooney_rivlin.hpp>
 #include <hmps/force/internal_force.hpp>
-#include <hmps/neighbours/bond_list.hpp>
-#include <hmps/stabilise/artificial.hpp>
+#include <hmps/bonds/bond_list.hpp>
+#include <hmps/terms/artificial.hpp>
 #include <map>
 #include <numeric>
 #include <string>

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <hmps/shapes/lattice.hpp>
-#include <hmps/shapes/support.hpp>
-#include <hmps/shapes/thicken.hpp>
+#include <hmps/particles/lattice.hpp>
+#include <hmps/particles/support.hpp>
+#include <hmps/particles/thicken.hpp>
 #include <numbers>
 #include <queue>
 #include <utility>

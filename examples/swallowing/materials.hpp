@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <hmps/elastic/mooney_rivlin.hpp>
+#include <hmps/laws/mooney_rivlin.hpp>
 #include <vector>
 
 #include "organs.hpp"

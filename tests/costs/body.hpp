@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hmps/core/view.hpp"
-#include "hmps/elastic/mooney_rivlin.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
 /// What the programs of tests/costs share: a block of soft tissue that vibrates.

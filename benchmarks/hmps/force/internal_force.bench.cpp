@@ -19,10 +19,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "hmps/elastic/elastic_force.hpp"
-#include "hmps/stabilise/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/artificial.hpp"
 #include "hmps/time/symplectic_euler.hpp"
-#include "hmps/viscosity/viscous.hpp"
+#include "hmps/terms/viscous.hpp"
 #include "reference.hpp"
 #include "step.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hmps/core/view.hpp"
-#include "hmps/elastic/law.hpp"
-#include "hmps/neighbours/fixed_radius.hpp"
+#include "hmps/laws/law.hpp"
+#include "hmps/search/fixed_radius.hpp"
 
 namespace bench {
 

@@ -15,11 +15,11 @@
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/lanes.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/neighbours/grid.hpp"
+#include "hmps/lanes/lanes.hpp"
+#include "hmps/search/grid.hpp"
 
 namespace hmps::detail {
 

@@ -16,14 +16,14 @@
 #include "hmps/contact/organ.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
-#include "hmps/contact/quad.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
+#include "hmps/core/step.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/time/symplectic_euler.hpp"
+#include "hmps/lanes/quad.hpp"
 
 namespace hmps {
 

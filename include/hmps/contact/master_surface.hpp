@@ -2,8 +2,8 @@
 #pragma once
 
 #include "hmps/contact/metaball.hpp"
-#include "hmps/contact/quad.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/lanes/quad.hpp"
 
 namespace hmps {
 

@@ -13,7 +13,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/neighbours/grid.hpp"
+#include "hmps/search/grid.hpp"
 
 namespace hmps {
 

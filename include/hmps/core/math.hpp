@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "hmps/core/lanes.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps {

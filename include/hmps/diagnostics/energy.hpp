@@ -8,14 +8,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "hmps/bonds/bonds.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/elastic/deformation_gradient.hpp"
-#include "hmps/elastic/law.hpp"
-#include "hmps/elastic/mean_dilatation.hpp"
-#include "hmps/stabilise/artificial.hpp"
+#include "hmps/lanes/staging.hpp"
+#include "hmps/laws/law.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/mean_dilatation.hpp"
 
 /// Energies of a body in J (in two dimensions per metre of thickness), summed in double precision
 /// in an order that does not depend on the executor. `volume` is that of a particle in the

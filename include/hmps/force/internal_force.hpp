@@ -8,12 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/bonds/bonds.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/step.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/elastic/deformation_gradient.hpp"
-#include "hmps/elastic/mean_dilatation.hpp"
-#include "hmps/force/terms.hpp"
-#include "hmps/time/symplectic_euler.hpp"
+#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/lanes/staging.hpp"
+#include "hmps/terms/mean_dilatation.hpp"
+#include "hmps/terms/term.hpp"
 
 namespace hmps {
 

@@ -14,7 +14,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/neighbours/fixed_radius.hpp"
+#include "hmps/search/fixed_radius.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace hmps {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
+#include "hmps/core/step.hpp"
 #include "hmps/core/view.hpp"
 
 /// The equation of motion, \paper{1}, in time: symplectic Euler with contact between the half steps,
@@ -20,19 +20,6 @@
 /// Every particle moves; whatever has a forced displacement gets its velocity prescribed between the
 /// last kick and the drift.
 namespace hmps {
-
-namespace detail {
-inline void require_step(double dt) {
-  require(dt > 0 && std::isfinite(dt), "hmps: the time step is ", dt,
-          " s; it must be positive and finite (stable_step estimates the largest stable one)");
-}
-/// One component of the velocity of one particle, under the force density f: v + f dt / rho.
-template <class T, class U, class Rho>
-void kick(T& v, U f, Rho rho, double dt) {
-  using Real = std::common_type_t<T, U>;
-  v = static_cast<T>(v + static_cast<Real>(dt / static_cast<double>(rho)) * f);
-}
-}  // namespace detail
 
 /// Adds to the velocities what the force densities give in the time `dt`, \paper{2} and \paper{3}:
 /// v <- v + f dt / rho. The mass cancels.

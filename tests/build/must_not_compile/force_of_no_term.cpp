@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hmps/force/internal_force.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
 
 struct Gravity {};
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "hmps/force/internal_force.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
-#include "hmps/stabilise/artificial.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/terms/artificial.hpp"
 
 int main() {
   std::vector<Eigen::Vector3d> x(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: a law needs second_piola_kirchhoff
-#include "hmps/elastic/law.hpp"
+#include "hmps/laws/law.hpp"
 
 struct Law {
   double young;

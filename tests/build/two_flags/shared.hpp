@@ -8,16 +8,17 @@
 #include <memory>
 #include <vector>
 
-#include "hmps/core/lanes.hpp"
+#include "hmps/bonds/bond_list.hpp"
+#include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/elastic/elastic_force.hpp"
-#include "hmps/elastic/mooney_rivlin.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/neighbours/bond_list.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
-#include "hmps/stabilise/artificial.hpp"
-#include "hmps/viscosity/viscous.hpp"
+#include "hmps/lanes/lanes.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/viscous.hpp"
 
 /// A user's particle: a size that Eigen never aligns, and our types.
 struct Particle {

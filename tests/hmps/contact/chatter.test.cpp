@@ -9,14 +9,15 @@
 #include <cstdio>
 
 #include "bodies.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/contact/contact.hpp"
-#include "hmps/elastic/elastic_force.hpp"
-#include "hmps/elastic/mooney_rivlin.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
-#include "hmps/stabilise/artificial.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/record.hpp"
+#include "hmps/terms/viscous.hpp"
 #include "hmps/time/symplectic_euler.hpp"
-#include "hmps/viscosity/viscous.hpp"
 
 namespace {
 

@@ -11,14 +11,14 @@
 
 #include "../../reference/scenes.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/elastic/deformation_gradient.hpp"
-#include "hmps/elastic/elastic_force.hpp"
-#include "hmps/elastic/mooney_rivlin.hpp"
+#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/neighbours/bond_list.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
-#include "hmps/stabilise/artificial.hpp"
-#include "hmps/viscosity/viscous.hpp"
+#include "hmps/bonds/bond_list.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/viscous.hpp"
 
 /// What every executor must do.
 namespace same_bits {

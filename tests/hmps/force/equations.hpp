@@ -14,9 +14,9 @@
 #include "../../reference/plain.hpp"
 #include "../../reference/scenes.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/elastic/mooney_rivlin.hpp"
-#include "hmps/neighbours/bond_list.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/bonds/bond_list.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
 
 /// What the tests of the force terms share: materials that differ from particle to particle, and
 /// the plain equations with them.

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "equations.hpp"
-#include "hmps/elastic/elastic_force.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/stabilise/artificial.hpp"
-#include "hmps/viscosity/viscous.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/viscous.hpp"
 
 /// The tests of the three forces together, for both models of bonds and both scalars; one
 /// translation unit for each dimension keeps compilation short.

@@ -9,11 +9,11 @@
 
 #include "../../reference/scenes.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/elastic/elastic_force.hpp"
-#include "hmps/elastic/linear_elastic.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/laws/linear_elastic.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/neighbours/lattice_bonds.hpp"
-#include "hmps/stabilise/artificial.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/terms/artificial.hpp"
 
 namespace {
 

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "equations.hpp"
-#include "hmps/elastic/deformation_gradient.hpp"
-#include "hmps/elastic/elastic_force.hpp"
+#include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/stabilise/artificial.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/record.hpp"
 
 namespace {
 

@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "../neighbours/bonds_of_a_scene.hpp"
+#include "../bonds/bonds_of_a_scene.hpp"
 #include "equations.hpp"
-#include "hmps/elastic/deformation_gradient.hpp"
-#include "hmps/elastic/elastic_force.hpp"
+#include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/stabilise/artificial.hpp"
-#include "hmps/viscosity/viscous.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/record.hpp"
+#include "hmps/terms/viscous.hpp"
+#include "hmps/time/symplectic_euler.hpp"
 
 namespace {
 

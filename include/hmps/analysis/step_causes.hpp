@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "hmps/analysis/probed_scene.hpp"
+#include "hmps/analysis/stable_step.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/lanes/blocks.hpp"
+
+namespace hmps {
+
+/// A part of the composed force, under the name by which `step_causes` speaks of it. Refers to the force.
+template <class Force>
+struct NamedForce {
+  std::string name;
+  Force& force;
+};
+template <class Force>
+NamedForce(const char*, Force&) -> NamedForce<Force>;
+
+/// What one part of the force does to the limiting mode.
+struct StepCause {
+  std::string name;
+  double stiffness = 0;  ///< its k in 1/s2: the mode's omega^2 is the sum over all parts
+  double damping = 0;    ///< its c in 1/s
+  double share = 0;      ///< its share of dt^2 k + 2 dt c = 4, which the limit is reached by
+};
+
+/// Which parts of the force limit the step: the quotient of `found`, the result of `stable_step` for the whole, part by
+/// part, the largest share first. The parts are forces that add up to the whole, such as
+/// `internal_force(bonds, artificial(E_hat))` beside `internal_force(bonds, elastic(law))`; then the shares add up
+/// to 1. A negative share is that of a part that softens the mode. Takes two force evaluations of each part, and two
+/// more of each that depends on velocities.
+///
+/// The other arguments are those that `stable_step` was called with. Throws as it does.
+template <class X, class V, int D, PerParticle Rho, class... Forces>
+[[nodiscard]] std::vector<StepCause> step_causes(const StableStep& found, const VectorView<X, D>& x,
+                                                 const VectorView<V, D>& v, const Rho& density,
+                                                 const StableStepSettings& settings,
+                                                 const NamedForce<Forces>&... parts) {
+  using T = typename VectorView<X, D>::Scalar;
+  const std::size_t n = x.size();
+  detail::validate(settings);
+  require(found.mode.size() == n * D, "hmps: the mode whose causes are asked for has ", found.mode.size(),
+          " numbers, but ", n, " particles in ", D, " dimensions need ", n * D,
+          "; give the result of stable_step for the same particles");
+  require_size(v, n, "velocities");
+  require_positive(density, n, "density", "kg/m3");
+  std::vector<StepCause> causes;
+  if (!std::isfinite(found.limit)) return causes;
+  const double dt = found.limit;
+  const Serial serial;
+  const auto ask = [&](const std::string& name, auto& force) {
+    detail::ProbedScene<std::remove_reference_t<decltype(force)>, T, D, Rho, Serial> scene(
+        force, x, v, density, detail::trial_displacement<T>(settings), serial);
+    scene.scale_speed(dt);
+    detail::Direction<D> mode(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int c = 0; c < D; ++c) mode.y[i][c] = found.mode[i * D + static_cast<std::size_t>(c)];
+    scene.probe(mode);
+    const double k = scene.dot(mode.y, mode.stiffness), c = scene.dot(mode.y, mode.damping);
+    causes.push_back({name, k, c, (dt * dt * k + 2 * dt * c) / 4});
+  };
+  (ask(parts.name, parts.force), ...);
+  std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+  return causes;
+}
+
+/// How well the bonds of `particle` support it: the smallest eigenvalue of its A (\paper{12}) over that of a full
+/// neighbourhood. 1 inside, 0.5 at a flat surface of a lattice, 0.28 at the corner of a cube: the stiffness of a
+/// particle grows as this falls.
+template <class K, int D>
+[[nodiscard]] double relative_support(const Blocks<K, D>& bonds, std::size_t particle) {
+  require(particle < bonds.size(), "hmps: the support of particle ", particle, " is asked for, but there are only ",
+          bonds.size(), " particles");
+  const Matrix<double, D> inverse = bonds.shape_inverse(particle).template cast<double>();
+  const Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver(inverse, Eigen::EigenvaluesOnly);
+  const double full = bonds.standard_lambda() * bonds.standard_density() / D;
+  return 1 / (solver.eigenvalues()[D - 1] * full);
+}
+
+/// One line that names the largest stable step, the particle that sets it, and its causes.
+[[nodiscard]] inline std::string describe(const StableStep& found, const std::vector<StepCause>& causes,
+                                          double support = 1) {
+  char step[32];
+  std::snprintf(step, sizeof(step), "%.3g", found.step);
+  std::string text = message("at most ", step, " s, set by particle ", found.particle);
+  if (support < 0.95)
+    text += message(support > 0.4 ? " at a surface" : " at an edge or a thin place", " (support ",
+                    std::round(100 * support), " % of that inside)");
+  const char* link = ": ";
+  for (const StepCause& cause : causes) {
+    text += message(link, cause.name, " ", std::round(100 * cause.share), " %");
+    link = ", ";
+  }
+  return text;
+}
+
+}  // namespace hmps

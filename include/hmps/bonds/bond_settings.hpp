@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "hmps/bonds/weight.hpp"
+#include "hmps/core/error.hpp"
+
+namespace hmps {
+
+/// Bonds every pair: the predicate of a body that is not cut.
+struct EveryBond {
+  constexpr bool operator()(std::size_t, std::size_t) const { return true; }
+};
+
+/// How the bonds of a cloud of particles are made.
+struct BondSettings {
+  double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
+  double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
+};
+
+namespace detail {
+inline void validate(const BondSettings& settings) {
+  require(settings.spacing > 0 && std::isfinite(settings.spacing), "hmps: the particle spacing is ", settings.spacing,
+          " m; it must be positive");
+  require(settings.radius_ratio > 0 && std::isfinite(settings.radius_ratio),
+          "hmps: the effective radius over the spacing is ", settings.radius_ratio,
+          "; it must be positive (the paper has 1.75)");
+}
+}  // namespace detail
+
+}  // namespace hmps

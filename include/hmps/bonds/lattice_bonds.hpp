@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/lattice_cells.hpp"
+#include "hmps/bonds/shape_tensor.hpp"
+#include "hmps/bonds/weight.hpp"
+#include "hmps/lanes/blocks.hpp"
+
+namespace hmps {
+
+/// The order of particles on a cubic lattice of `spacing` (m) in which the sweeps over `LatticeBonds`
+/// visit them: particle `order[s]` comes at place s. Arrays of state that are kept in this order are
+/// read in one go. Throws `InputError` for particles off the lattice or at the same place.
+template <class T, int D>
+[[nodiscard]] std::vector<Index> lattice_order(const VectorView<T, D>& reference, double spacing) {
+  return detail::LatticeCells<D>(reference, spacing).order;
+}
+
+/// The bonds of particles on a simple cubic lattice in their reference configuration. All particles
+/// share the offsets r0 and weights w0 (\paper{8}); a block of particles keeps, for each offset, the
+/// runs of neighbours that follow each other, eight bytes each. A particle may lie off its place by
+/// the rounding of the user's scalar, up to a thousandth of the spacing; r0 is that of the lattice.
+/// Satisfies the `Bonds` concept.
+template <class K, int D>
+class LatticeBonds : public Blocks<K, D> {
+  using Base = Blocks<K, D>;
+
+ public:
+  using Base::width;
+  template <std::size_t N>
+  using Slots = SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
+
+  /// Bonds all pairs of `reference` (m, any order, on one lattice) no further apart than the
+  /// effective radius for which `bonded(i, j)` holds. Throws `InputError` for particles off the
+  /// lattice, coincident ones, and neighbourhoods that do not span space.
+  template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
+  explicit LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
+                        Weight&& weight = {})
+      : LatticeBonds(reference, settings, checked_cells(reference, settings), bonded, weight) {}
+
+  /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
+  /// to `i` (m) and weight.
+  template <class Visit>
+  void for_each_bond(std::size_t i, Visit&& visit) const {
+    const std::size_t slot = this->slot(i), l = slot % width;
+    const std::size_t group = slot / width * directions;
+    for (std::size_t row = first_run_[group]; row < first_run_[group + directions]; ++row) {
+      const Run& run = runs_[row];
+      if ((run.lanes >> l & 1u) == 0) continue;
+      const auto neighbour = static_cast<std::size_t>(run.first + static_cast<std::ptrdiff_t>(l));
+      Vector<K, D> r0;
+      for (int c = 0; c < D; ++c) r0[c] = offset_[run.offset].r0[c];
+      visit(this->particle(neighbour), r0, offset_[run.offset].w);
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::uint32_t);
+  }
+
+  /// The slot from which on the last of the rows of `block` reads.
+  [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
+    return static_cast<std::size_t>(std::max(runs_[first_run_[(block + 1) * directions] - 1].first, 0));
+  }
+
+  /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot
+  /// `first + l`, and r0 has components along `Axes` alone (bit c for component c).
+  template <unsigned Axes>
+  struct Row {
+    const K* r0;
+    Lanes<K> w;
+    std::ptrdiff_t first;
+
+    static constexpr bool skips = true;
+    [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
+    template <std::size_t N>
+    [[nodiscard]] HMPS_INLINE auto gather(const SlotArrays<K, N>& slots) const {
+      return slots.run(first);
+    }
+    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
+  };
+
+  /// Calls `visit(row)` for each row of bonds of `block`, those along the same axes after each other, with a type of
+  /// row for each set of axes: what a bond along few axes need not compute is known to the compiler.
+  template <class Visit>
+  HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
+    for_each_row(block, visit, std::make_integer_sequence<unsigned, directions>{});
+  }
+
+ private:
+  /// Sets of axes that a bond can be along; that with the bits b stands at place b - 1.
+  static constexpr unsigned directions = (1u << D) - 1;
+
+  template <class Visit, unsigned... Places>
+  HMPS_INLINE void for_each_row(std::size_t block, Visit& visit, std::integer_sequence<unsigned, Places...>) const {
+    (for_each_row_along<Places>(block, visit), ...);
+  }
+  template <unsigned Place, class Visit>
+  HMPS_INLINE void for_each_row_along(std::size_t block, Visit& visit) const {
+    const std::size_t group = block * directions + Place;
+    const Run* const end = runs_.data() + first_run_[group + 1];
+    for (const Run* run = runs_.data() + first_run_[group]; run != end; ++run) {
+      const Offset& offset = offset_[run->offset];
+      visit(Row<Place + 1>{offset.r0, spread(run->lanes, offset.w), run->first});
+    }
+  }
+
+  struct Offset {
+    K r0[D];
+    K w;
+  };
+  struct Run {
+    std::int32_t first;
+    std::uint16_t lanes;
+    std::uint16_t offset;
+  };
+  static_assert(width <= 16, "hmps: the lanes of a run are kept in 16 bits");
+
+  template <class T>
+  [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
+                                                             const BondSettings& settings) {
+    detail::validate(settings);
+    require_finite(reference, "the reference position");
+    return {reference, settings.spacing};
+  }
+
+  template <class T, class Bonded, class Weight>
+  LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, const detail::LatticeCells<D>& cells,
+               Bonded& bonded, Weight& weight)
+      : Base(reference, cells.order) {
+    const std::size_t n = this->size();
+    std::vector<std::int64_t> keys(n);
+    for (std::size_t s = 0; s < n; ++s) keys[s] = cells.key(cells.cell[cells.order[s]]);
+
+    struct Placed {
+      std::size_t group;
+      Run run;
+    };
+    std::vector<Placed> placed;
+    std::vector<ShapeTensor<D>> shapes(n);
+    ShapeTensor<D> inside;
+    auto near = cells_within(settings.radius_ratio);
+    // By the axes, then in the order of the slots, so that the sweeps go through memory in one direction.
+    std::sort(near.begin(), near.end(), [&](const auto& a, const auto& b) {
+      return std::pair(axes_of(a), cells.key(a)) < std::pair(axes_of(b), cells.key(b));
+    });
+    for (const auto& cell : near) {
+      Vector<double, D> r0;
+      for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
+      const double radius = settings.spacing * settings.radius_ratio;
+      const double w = weight(std::min(r0.norm(), radius), radius);
+      if (!(w > 0)) continue;
+      inside.add(r0, w);
+      Offset& offset = offset_.emplace_back();
+      for (int c = 0; c < D; ++c) offset.r0[c] = static_cast<K>(r0[c]);
+      offset.w = static_cast<K>(w);
+      const std::int64_t step = cells.key(cell);
+      // Slots are sorted by key, so that the neighbours at one offset are met in order too.
+      for (std::size_t s = 0, t = 0; s < n; ++s) {
+        while (t < n && keys[t] < keys[s] + step) ++t;
+        if (t == n) break;
+        if (keys[t] != keys[s] + step || !bonded(this->particle(s), this->particle(t))) continue;
+        shapes[this->particle(s)].add(r0, w);
+        const std::size_t group = s / width * directions + axes_of(cell) - 1;
+        const auto first =
+            static_cast<std::int32_t>(static_cast<std::ptrdiff_t>(t) - static_cast<std::ptrdiff_t>(s % width));
+        const auto k = static_cast<std::uint16_t>(offset_.size() - 1);
+        if (placed.empty() || placed.back().group != group || placed.back().run.first != first ||
+            placed.back().run.offset != k)
+          placed.push_back({group, {first, 0, k}});
+        placed.back().run.lanes = static_cast<std::uint16_t>(placed.back().run.lanes | 1u << s % width);
+      }
+    }
+    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", n, " particles make ",
+            placed.size(), " runs, more than can be numbered; divide the body");
+    // From offset by offset to block by block: a counting sort keeps the order of the offsets.
+    first_run_.assign(this->block_count() * directions + 1, 0);
+    for (const Placed& p : placed) ++first_run_[p.group + 1];
+    std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
+    runs_.resize(placed.size());
+    std::vector<std::uint32_t> next(first_run_.begin(), first_run_.end() - 1);
+    for (const Placed& p : placed) runs_[next[p.group]++] = p.run;
+
+    for (std::size_t i = 0; i < n; ++i)
+      this->keep_shape(i, shapes[i].inverse(i), shapes[i].asymmetry, shapes[i].A.trace());
+    this->share_shapes();
+    this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
+  }
+
+  /// The cells no further than `radius` spacings from the origin, without the origin.
+  [[nodiscard]] static std::vector<typename detail::LatticeCells<D>::Cell> cells_within(double radius) {
+    require(radius >= 1 && radius < 16, "hmps: the effective radius is ", radius,
+            " spacings; on a lattice it must be at least 1 and below 16");
+    std::vector<typename detail::LatticeCells<D>::Cell> cells;
+    const auto reach = static_cast<std::int32_t>(std::floor(radius * (1 + 1e-12)));
+    typename detail::LatticeCells<D>::Cell cell;
+    cell.fill(-reach);
+    for (bool more = true; more;) {
+      double squared = 0;
+      for (std::int32_t c : cell) squared += double(c) * c;
+      if (squared > 0 && squared <= radius * radius * (1 + 1e-12)) cells.push_back(cell);
+      more = false;
+      for (std::size_t d = D; d-- > 0 && !more;) {
+        more = cell[d] < reach;
+        cell[d] = more ? cell[d] + 1 : -reach;
+      }
+    }
+    return cells;
+  }
+
+  /// The axes along which a neighbour in `cell` lies.
+  [[nodiscard]] static unsigned axes_of(const typename detail::LatticeCells<D>::Cell& cell) {
+    unsigned axes = 0;
+    for (int c = 0; c < D; ++c)
+      if (cell[static_cast<std::size_t>(c)] != 0) axes |= 1u << c;
+    return axes;
+  }
+
+  std::vector<Offset> offset_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> first_run_;  ///< Of each set of axes of each block.
+};
+
+}  // namespace hmps

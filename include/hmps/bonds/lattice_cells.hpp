@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps {
+
+namespace detail {
+
+/// The cells of a simple cubic lattice that particles occupy, sorted row by row.
+template <int D>
+struct LatticeCells {
+  using Cell = std::array<std::int32_t, D>;
+  std::vector<Cell> cell;    ///< Cell of each particle.
+  std::vector<Index> order;  ///< The particles, sorted by cell.
+  std::array<int, D> axis;   ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.
+
+  template <class T>
+  LatticeCells(const VectorView<T, D>& reference, double spacing) : cell(reference.size()), order(reference.size()) {
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      for (int c = 0; c < D; ++c) {
+        const double place = (double(reference(i, c)) - double(reference(0, c))) / spacing;
+        require(std::abs(place) < 1e6, "hmps: particle ", i, " lies ", place,
+                " spacings from particle 0; a lattice may span 1e6");
+        const double nearest = std::round(place);
+        require(std::abs(place - nearest) < 1e-3, "hmps: component ", c, " of particle ", i, " lies ", place,
+                " spacings from particle 0, not on the cubic lattice; use BondList for a cloud that is no lattice");
+        cell[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(nearest);
+      }
+    std::iota(order.begin(), order.end(), Index{0});
+    choose_axes();
+    std::sort(order.begin(), order.end(), [this](Index a, Index b) { return key(cell[a]) < key(cell[b]); });
+    for (std::size_t s = 1; s < order.size(); ++s)
+      require(cell[order[s]] != cell[order[s - 1]], "hmps: particles ", order[s - 1], " and ", order[s],
+              " lie at the same place; remove one of them");
+  }
+
+  /// A number that orders cells row by row; that of a cell plus an offset is the sum of both.
+  [[nodiscard]] std::int64_t key(const Cell& c) const {
+    std::int64_t k = 0;
+    for (int d = 0; d < D; ++d)
+      k = k * (std::int64_t{1} << 21) + c[static_cast<std::size_t>(axis[static_cast<std::size_t>(d)])];
+    return k;
+  }
+
+ private:
+  /// Rows along the axis that makes the fewest of them, so that most neighbours of a block follow
+  /// each other; planes across the longest axis, so that neighbouring planes are close in memory.
+  void choose_axes() {
+    std::array<std::size_t, D> rows{};
+    std::array<std::int32_t, D> extent{};
+    for (int d = 0; d < D; ++d) {
+      std::iota(axis.begin(), axis.end(), 0);
+      std::swap(axis[static_cast<std::size_t>(d)], axis[D - 1]);
+      std::vector<std::int64_t> keys(cell.size());
+      std::int32_t low = 0, high = 0;
+      for (std::size_t i = 0; i < cell.size(); ++i) {
+        keys[i] = key(cell[i]);
+        low = std::min(low, cell[i][static_cast<std::size_t>(d)]);
+        high = std::max(high, cell[i][static_cast<std::size_t>(d)]);
+      }
+      std::sort(keys.begin(), keys.end());
+      for (std::size_t i = 0; i < keys.size(); ++i)
+        rows[static_cast<std::size_t>(d)] += (i == 0 || keys[i] != keys[i - 1] + 1) ? 1u : 0u;
+      extent[static_cast<std::size_t>(d)] = high - low;
+    }
+    int fastest = D - 1;
+    for (int d = D - 1; d >= 0; --d)
+      if (rows[static_cast<std::size_t>(d)] < rows[static_cast<std::size_t>(fastest)]) fastest = d;
+    std::iota(axis.begin(), axis.end(), 0);
+    std::swap(axis[static_cast<std::size_t>(fastest)], axis[D - 1]);
+    std::sort(axis.begin(), axis.end() - 1, [&](int a, int b) {
+      const auto ea = extent[static_cast<std::size_t>(a)], eb = extent[static_cast<std::size_t>(b)];
+      return ea != eb ? ea > eb : a < b;
+    });
+  }
+};
+
+}  // namespace detail
+
+}  // namespace hmps

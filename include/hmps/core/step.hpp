@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#include "hmps/core/error.hpp"
+
+namespace hmps::detail {
+
+/// Throws `InputError` unless `dt` (s) is a time step.
+inline void require_step(double dt) {
+  require(dt > 0 && std::isfinite(dt), "hmps: the time step is ", dt,
+          " s; it must be positive and finite (stable_step estimates the largest stable one)");
+}
+/// One component of the velocity of one particle, under the force density f: v + f dt / rho.
+template <class T, class U, class Rho>
+void kick(T& v, U f, Rho rho, double dt) {
+  using Real = std::common_type_t<T, U>;
+  v = static_cast<T>(v + static_cast<Real>(dt / static_cast<double>(rho)) * f);
+}
+}  // namespace hmps::detail

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/slots.hpp"
+
+namespace hmps {
+
+/// The particles in the order in which the sweeps visit them: `block()` of them at a time, each in
+/// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
+/// slots. Holds what both models of bonds share: the reference configuration (\paper{12}).
+template <class K, int D>
+class Blocks {
+ public:
+  using Scalar = K;
+  static constexpr int dimension = D;
+  static constexpr std::size_t width = static_cast<std::size_t>(Lanes<K>::width);
+  static constexpr Index none = std::numeric_limits<Index>::max();
+
+  /// Number of particles.
+  [[nodiscard]] std::size_t size() const { return slot_of_.size(); }
+  [[nodiscard]] std::size_t block_count() const { return particle_of_.size() / width; }
+  [[nodiscard]] std::size_t slot_count() const { return particle_of_.size(); }
+  /// The particle in `slot`, or `none`.
+  [[nodiscard]] Index particle(std::size_t slot) const { return particle_of_[slot]; }
+  [[nodiscard]] std::size_t slot(std::size_t particle) const { return slot_of_[particle]; }
+
+  /// Component `c` of the reference position of `particle`, in m.
+  [[nodiscard]] double reference(std::size_t particle, int c) const {
+    return reference_[static_cast<std::size_t>(c)][slot_of_[particle]];
+  }
+  /// The reference position of `particle`, in m.
+  [[nodiscard]] Vector<double, D> reference(std::size_t particle) const {
+    Vector<double, D> x;
+    for (int c = 0; c < D; ++c) x[c] = reference(particle, c);
+    return x;
+  }
+  /// A^-1 of `particle`, in 1/m2 (\paper{12}).
+  [[nodiscard]] Matrix<K, D> shape_inverse(std::size_t particle) const {
+    Matrix<K, D> inverse;
+    for (int r = 0; r < D; ++r)
+      for (int c = 0; c < D; ++c) inverse(r, c) = shape_(symmetric(r, c), shape_slot(slot_of_[particle]));
+    return inverse;
+  }
+  /// tr A = sum |r0|^2 w of `particle`, in m2, the sum in \paper{20}.
+  [[nodiscard]] K shape_trace(std::size_t particle) const {
+    return K(1) / shape_(inverse_trace, shape_slot(slot_of_[particle]));
+  }
+
+  /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}): of the
+  /// full lattice in `LatticeBonds`, of the particle with the largest sum of weights in `BondList`.
+  [[nodiscard]] double standard_density() const { return standard_density_; }
+  [[nodiscard]] double standard_lambda() const { return standard_lambda_; }
+
+  /// Bytes that the reference configuration takes, without the bonds themselves.
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum =
+        (particle_of_.size() + slot_of_.size() + shape_block_.size()) * sizeof(Index) + consecutive_.size();
+    for (const auto& component : reference_) sum += component.size() * sizeof(double);
+    return sum + shape_.bytes();
+  }
+
+  // What follows is read by the sweeps, lane by lane.
+
+  [[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> shape_inverse_lanes(std::size_t block) const {
+    Matrix<Lanes<K>, D> inverse;
+    for (int c = 0; c < D; ++c)
+      for (int r = 0; r <= c; ++r) {
+        inverse(r, c) = shape_lanes(symmetric(r, c), block);
+        inverse(c, r) = inverse(r, c);
+      }
+    return inverse;
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> inverse_trace_lanes(std::size_t block) const {
+    return shape_lanes(inverse_trace, block);
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> asymmetry_lanes(std::size_t block, int c) const {
+    return shape_lanes(asymmetry + static_cast<std::size_t>(c), block);
+  }
+  /// Whether the lanes of `block` hold particles that follow each other in the user's arrays.
+  [[nodiscard]] HMPS_INLINE bool consecutive(std::size_t block) const { return consecutive_[block] != 0; }
+  /// Where the sweeps read farthest ahead for `block`, if the order of the slots tells; its own slots otherwise.
+  [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const { return block * width; }
+  [[nodiscard]] HMPS_INLINE const double* reference_slots(int c) const {
+    return reference_[static_cast<std::size_t>(c)].data();
+  }
+
+ protected:
+  /// Slots in the order of `order`, which holds every particle once.
+  template <class T>
+  Blocks(const VectorView<T, D>& reference, const std::vector<Index>& order)
+      : particle_of_((order.size() + width - 1) / width * width, none), slot_of_(order.size()) {
+    std::copy(order.begin(), order.end(), particle_of_.begin());
+    for (std::size_t s = 0; s < order.size(); ++s) slot_of_[order[s]] = static_cast<Index>(s);
+    for (int c = 0; c < D; ++c) {
+      auto& component = reference_[static_cast<std::size_t>(c)];
+      component.assign(slot_count(), 0.0);
+      for (std::size_t s = 0; s < order.size(); ++s) component[s] = static_cast<double>(reference(order[s], c));
+    }
+    consecutive_.resize(block_count());
+    for (std::size_t b = 0; b < block_count(); ++b) {
+      bool run = true;
+      for (std::size_t l = 1; l < width; ++l)
+        run = run && particle_of_[b * width + l] != none && particle_of_[b * width + l] == particle_of_[b * width] + l;
+      consecutive_[b] = run ? 1 : 0;
+    }
+    shape_ = Shapes(slot_count());
+    shape_block_.resize(block_count());
+    std::iota(shape_block_.begin(), shape_block_.end(), Index{0});
+  }
+
+  /// Keeps what the sweeps need of the neighbourhood of `particle`: A^-1, sum w r0 and tr A.
+  void keep_shape(std::size_t particle, const Matrix<double, D>& shape_inverse, const Vector<double, D>& asymmetric_sum,
+                  double trace) {
+    const std::size_t slot = slot_of_[particle];
+    for (int c = 0; c < D; ++c) {
+      shape_(asymmetry + static_cast<std::size_t>(c), slot) = static_cast<K>(asymmetric_sum[c]);
+      for (int r = 0; r <= c; ++r) shape_(symmetric(r, c), slot) = static_cast<K>(shape_inverse(r, c));
+    }
+    shape_(inverse_trace, slot) = static_cast<K>(1.0 / trace);
+  }
+  /// To be called when all shapes are kept: blocks whose particles have all the same neighbourhood, as inside a lattice
+  /// and along its faces, share one copy of it from then on.
+  void share_shapes() {
+    std::map<std::array<K, shape_components>, Index> shared;
+    std::vector<std::size_t> kept;  // blocks
+    for (std::size_t b = 0; b < block_count(); ++b) {
+      std::array<K, shape_components> first;
+      bool uniform = true;
+      for (std::size_t c = 0; c < shape_components; ++c) {
+        const K* lanes = &shape_(c, b * width);
+        first[c] = lanes[0];
+        uniform = uniform && std::all_of(lanes, lanes + width, [&](K value) { return value == lanes[0]; });
+      }
+      const auto next = static_cast<Index>(kept.size());
+      shape_block_[b] = uniform ? shared.emplace(first, next).first->second : next;
+      if (shape_block_[b] == next) kept.push_back(b);
+    }
+    Shapes shapes(kept.size() * width);
+    for (std::size_t c = 0; c < shape_components; ++c)
+      for (std::size_t k = 0; k < kept.size(); ++k) shapes.keep(c, k * width, shape_.lanes(c, kept[k] * width));
+    shape_ = std::move(shapes);
+  }
+  void keep_standard(double density, double lambda) {
+    standard_density_ = density;
+    standard_lambda_ = lambda;
+  }
+
+ private:
+  // Components of shape_: those of A^-1 on and above the diagonal, then these.
+  static constexpr std::size_t asymmetry = D * (D + 1) / 2, inverse_trace = asymmetry + D,
+                               shape_components = inverse_trace + 1;
+  using Shapes = SlotArrays<K, shape_components>;
+
+  [[nodiscard]] std::size_t shape_slot(std::size_t slot) const {
+    return shape_block_[slot / width] * width + slot % width;
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> shape_lanes(std::size_t component, std::size_t block) const {
+    return shape_.lanes(component, shape_block_[block] * width);
+  }
+  [[nodiscard]] static constexpr std::size_t symmetric(int r, int c) {
+    return static_cast<std::size_t>(r < c ? r + c * (c + 1) / 2 : c + r * (r + 1) / 2);
+  }
+
+  std::vector<Index> particle_of_;
+  std::vector<Index> slot_of_;
+  std::vector<std::uint8_t> consecutive_;
+  std::array<std::vector<double>, D> reference_;
+  Shapes shape_;
+  std::vector<Index> shape_block_;  ///< Where in shape_ the lanes of each block are.
+  double standard_density_ = 0;
+  double standard_lambda_ = 0;
+};
+
+}  // namespace hmps

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <type_traits>
+
+#include "hmps/laws/law.hpp"
+
+namespace hmps {
+
+/// Linear elasticity in the small strain e = (F + F^T) / 2 - I,
+///
+///     W = lambda / 2 (tr e)^2 + mu e : e,    dW/dF = lambda tr(e) I + 2 mu e
+///
+/// for problems of small strain and small rotation, and for comparison with linear theory: a finite
+/// rotation strains it. It is a law of the deformation gradient, since C has forgotten the
+/// rotation. Two dimensions are plane strain.
+template <class P = double>
+struct LinearElastic {
+  P lambda;  ///< first Lame constant in Pa
+  P mu;      ///< shear modulus in Pa
+
+  /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson`.
+  [[nodiscard]] static LinearElastic from_young(P young, P poisson) {
+    const P two_mu = young / (P(1) + poisson);
+    return {two_mu * poisson / (P(1) - P(2) * poisson), two_mu / P(2)};
+  }
+
+  [[nodiscard]] P bulk_modulus() const { return lambda + mu * P(2) / P(3); }
+  [[nodiscard]] P shear_modulus() const { return mu; }
+
+  /// Throws `InputError` unless bulk and shear modulus are positive and finite.
+  void validate() const requires std::is_arithmetic_v<P> {
+    detail::require_modulus(mu, "LinearElastic", "shear modulus mu", "from_young needs E > 0 and Poisson's ratio > -1");
+    detail::require_modulus(bulk_modulus(), "LinearElastic", "bulk modulus lambda + 2 mu / 3",
+                            "from_young needs Poisson's ratio < 0.5");
+  }
+
+  /// dW/dF in Pa at the deformation gradient `F`; symmetric.
+  template <class T, int D>
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> first_piola_kirchhoff(const Matrix<T, D>& F) const {
+    T strain_trace = F(0, 0) - T(1);
+    for (int c = 1; c < D; ++c) strain_trace = strain_trace + (F(c, c) - T(1));
+    const T spherical = T(lambda) * strain_trace;
+    Matrix<T, D> stress;
+    for (int c = 0; c < D; ++c) {
+      stress(c, c) = spherical + T(P(2) * mu) * (F(c, c) - T(1));
+      for (int r = 0; r < c; ++r) stress(r, c) = stress(c, r) = T(mu) * (F(r, c) + F(c, r));
+    }
+    return stress;
+  }
+
+  /// The strain energy W in J/m3.
+  template <class T, int D>
+  [[nodiscard]] T energy(const Matrix<T, D>& F) const {
+    Matrix<T, D> twice;
+    for (int c = 0; c < D; ++c) {
+      twice(c, c) = (F(c, c) - T(1)) + (F(c, c) - T(1));
+      for (int r = 0; r < c; ++r) twice(r, c) = twice(c, r) = F(r, c) + F(c, r);
+    }
+    const T strain_trace = trace(twice);
+    return T(P(0.125) * lambda) * (strain_trace * strain_trace) + T(P(0.25) * mu) * contract(twice, twice);
+  }
+};
+
+template <class P>
+LinearElastic(P, P) -> LinearElastic<P>;
+
+}  // namespace hmps

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <type_traits>
+
+#include "hmps/laws/invariants.hpp"
+#include "hmps/laws/law.hpp"
+
+namespace hmps {
+
+/// The Mooney-Rivlin law of nearly incompressible soft tissue, \paper{15, 16, 17}:
+///
+///     W = C1 (J^(-2/3) I1 - 3) + C2 (J^(-4/3) I2 - 3) + D1 (J - 1)^2
+///
+/// with the invariants I1, I2 of C. In two dimensions it is plane strain: F33 = 1, so I1 = tr C + 1
+/// and I2 = det C + tr C.
+///
+/// The bulk modulus at zero strain is 2 D1, though section 3.7 of the paper calls D1 itself the bulk
+/// modulus; `d1` is the D1 of \paper{15}, so the paper's tissue has `d1 = 1e6` and K = 2 MPa.
+///
+/// `J` must be positive (see `Continued` for what else can be done). Rounding: with the relative
+/// precision eps of T the stress carries an error of about eps * 2 D1, which comes from the rounding of F itself, so
+/// that no formula in F can avoid it; the shear part adds eps * 2 (C1 + C2). The energy is
+/// evaluated without cancellation, to a few eps of its shear part.
+///
+/// `P` is the type of the parameters, a scalar, or a pack of lanes with one material per particle.
+template <class P = double>
+struct MooneyRivlin {
+  P c1;  ///< C1 in Pa
+  P c2;  ///< C2 in Pa
+  P d1;  ///< D1 in Pa, half the bulk modulus
+
+  /// The law with Young's modulus `young` in Pa at zero strain by \paper{18}, E = 6 (C1 + C2), the
+  /// volumetric constant `d1` in Pa and the `ratio` C1 / C2 (the paper: 1).
+  [[nodiscard]] static MooneyRivlin from_young(P young, P d1, P ratio = P(1)) {
+    const P c2 = young / (P(6) * (P(1) + ratio));
+    return {ratio * c2, c2, d1};
+  }
+
+  /// Young's modulus in Pa at zero strain by \paper{18}; exact for an incompressible material. The
+  /// exact one at finite bulk modulus, 9 K G / (3 K + G), is smaller by G / (3 K), 0.1 % for the paper's tissue.
+  [[nodiscard]] P young() const { return P(6) * (c1 + c2); }
+  /// The bulk modulus in Pa at zero strain, 2 D1.
+  [[nodiscard]] P bulk_modulus() const { return P(2) * d1; }
+  /// The shear modulus in Pa at zero strain, 2 (C1 + C2).
+  [[nodiscard]] P shear_modulus() const { return P(2) * (c1 + c2); }
+
+  /// Throws `InputError` unless C1 + C2 and D1 are positive and finite. One of C1, C2 may be
+  /// negative, as it comes out of some fits.
+  void validate() const requires std::is_arithmetic_v<P> {
+    detail::require_modulus(shear_modulus(), "MooneyRivlin", "shear modulus 2 (C1 + C2)",
+                            "give C1 + C2 > 0, or from_young with a positive Young's modulus");
+    detail::require_modulus(d1, "MooneyRivlin", "volumetric constant D1",
+                            "give half of the bulk modulus, for soft tissue about 1e6 Pa");
+  }
+
+  /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F and J = det F > 0.
+  template <class T, int D>
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
+    const Matrix<T, D> K = symmetric_cofactor(C);
+    const T I1 = detail::first_invariant(C);
+    const T I2 = detail::second_invariant(C, K);
+    // Every power of J from one root, without a division.
+    const T root = inverse_cube_root(J);
+    const T a = root * root;
+    const T inverse_J = a * root;
+    const T w1 = T(P(2) * c1) * a;
+    const T w2 = T(P(2) * c2) * (a * a);
+    // dJ/dC = J C^-1 / 2 and C^-1 = K / J^2.
+    const T pressure = T(P(2) * d1) * (J - T(1)) - (w1 * I1 + (w2 + w2) * I2) * (inverse_J * T(1.0 / 3.0));
+    return detail::combine(C, K, w1 + w2 * I1, w2, pressure * inverse_J);
+  }
+
+  /// The strain energy W in J/m3 of \paper{15}. Never negative for non-negative constants.
+  template <class T, int D>
+  [[nodiscard]] T energy(const Matrix<T, D>& C, const T& J) const {
+    const T volumetric = J - T(1);
+    return T(c1) * detail::first_isochoric_excess(C, J) + T(c2) * detail::second_isochoric_excess(C, J) +
+           T(d1) * (volumetric * volumetric);
+  }
+
+  /// The factors of I1 and I2 and the volumetric part, as `Continued` needs them.
+  template <class T>
+  [[nodiscard]] HMPS_INLINE detail::InvariantFactors<T> invariant_factors(const T& J) const {
+    const T root = inverse_cube_root(J);
+    const T a = root * root, inverse_J = a * root, volumetric = J - T(1);
+    const T g1 = T(c1) * a, g2 = T(c2) * (a * a);
+    return {.first = g1,
+            .second = g2,
+            .volumetric = T(d1) * (volumetric * volumetric) - T(P(3) * (c1 + c2)),
+            .first_slope = T(-2.0 / 3.0) * g1 * inverse_J,
+            .second_slope = T(-4.0 / 3.0) * g2 * inverse_J,
+            .volumetric_slope = T(P(2) * d1) * volumetric,
+            .volumetric_curvature = T(P(2) * d1)};
+  }
+};
+
+template <class P>
+MooneyRivlin(P, P, P) -> MooneyRivlin<P>;
+
+}  // namespace hmps

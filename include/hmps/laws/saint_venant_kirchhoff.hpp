@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <type_traits>
+
+#include "hmps/laws/law.hpp"
+
+namespace hmps {
+
+/// The Saint Venant-Kirchhoff law: linear elasticity in the Green-Lagrange strain E = (C - I) / 2,
+///
+///     W = lambda / 2 (tr E)^2 + mu E : E,    S = lambda tr(E) I + 2 mu E
+///
+/// for large rotations at small strain. It is finite for every F but softens without bound under
+/// compression (below a stretch of 0.58 the force falls again) and does not resist inversion.
+/// Two dimensions are plane strain.
+template <class P = double>
+struct SaintVenantKirchhoff {
+  P lambda;  ///< first Lame constant in Pa
+  P mu;      ///< shear modulus in Pa
+
+  /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson` at zero strain.
+  [[nodiscard]] static SaintVenantKirchhoff from_young(P young, P poisson) {
+    const P two_mu = young / (P(1) + poisson);
+    return {two_mu * poisson / (P(1) - P(2) * poisson), two_mu / P(2)};
+  }
+
+  [[nodiscard]] P bulk_modulus() const { return lambda + mu * P(2) / P(3); }
+  [[nodiscard]] P shear_modulus() const { return mu; }
+
+  /// Throws `InputError` unless bulk and shear modulus are positive and finite.
+  void validate() const requires std::is_arithmetic_v<P> {
+    detail::require_modulus(mu, "SaintVenantKirchhoff", "shear modulus mu",
+                            "from_young needs E > 0 and Poisson's ratio > -1");
+    detail::require_modulus(bulk_modulus(), "SaintVenantKirchhoff", "bulk modulus lambda + 2 mu / 3",
+                            "from_young needs Poisson's ratio < 0.5");
+  }
+
+  /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F. Does not ask for J.
+  template <class T, int D>
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T&) const {
+    T strain_trace = C(0, 0) - T(1);
+    for (int c = 1; c < D; ++c) strain_trace = strain_trace + (C(c, c) - T(1));
+    const T spherical = T(P(0.5) * lambda) * strain_trace;
+    Matrix<T, D> S;
+    for (int c = 0; c < D; ++c) {
+      S(c, c) = spherical + T(mu) * (C(c, c) - T(1));
+      for (int r = 0; r < c; ++r) S(r, c) = S(c, r) = T(mu) * C(r, c);
+    }
+    return S;
+  }
+
+  /// The strain energy W in J/m3.
+  template <class T, int D>
+  [[nodiscard]] T energy(const Matrix<T, D>& C, const T&) const {
+    Matrix<T, D> twice = C;
+    for (int c = 0; c < D; ++c) twice(c, c) = C(c, c) - T(1);
+    const T strain_trace = trace(twice);
+    return T(P(0.125) * lambda) * (strain_trace * strain_trace) + T(P(0.25) * mu) * contract(twice, twice);
+  }
+};
+
+template <class P>
+SaintVenantKirchhoff(P, P) -> SaintVenantKirchhoff<P>;
+
+}  // namespace hmps

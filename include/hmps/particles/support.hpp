@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/shape_tensor.hpp"
+#include "hmps/bonds/weight.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/search/fixed_radius.hpp"
+
+namespace hmps {
+
+/// When a particle counts as weakly supported. Its support is the smallest eigenvalue of A,
+/// \paper{12}, with the weights of \paper{8}, in units of the squared spacing: with the paper's
+/// radius 3.48 in a full cubic lattice, 1.74 at a flat surface, 0.99 at the corner of a cube. A
+/// small one makes A^-1 large, and with it the stiffness: the particle has a stable step of its own
+/// and can explode at rest.
+struct SupportSettings {
+  double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
+  double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
+  double threshold = 0.75;                   ///< Weak below this; the default suits 3D and the paper's radius.
+  double smallest_piece = 0.01;              ///< Loose pieces with a smaller share of all particles are dropped.
+};
+
+/// A weakly supported particle.
+struct WeakParticle {
+  Index particle;  ///< its index
+  double support;  ///< smallest eigenvalue of A over the squared spacing
+};
+
+/// Keeps nothing back: the predicate of `remove_weak` that protects no particle.
+struct KeepNone {
+  constexpr bool operator()(std::size_t) const { return false; }
+};
+
+namespace detail {
+
+inline void validate(const SupportSettings& settings) {
+  validate(BondSettings{settings.spacing, settings.radius_ratio});
+  require(settings.threshold >= 0 && std::isfinite(settings.threshold), "hmps: the support threshold is ",
+          settings.threshold, "; it must not be negative (0.75 suits the paper's radius)");
+  require(settings.smallest_piece >= 0 && settings.smallest_piece <= 1, "hmps: the smallest piece to keep is ",
+          settings.smallest_piece, " of all particles; give a share from 0 to 1");
+}
+
+/// The neighbourhoods of a cloud that is about to lose particles.
+template <class T, int D, class Bonded>
+class Supports {
+ public:
+  Supports(const VectorView<T, D>& points, const SupportSettings& settings, const Bonded& bonded)
+      : points_(points),
+        bonded_(bonded),
+        radius_(settings.spacing * settings.radius_ratio),
+        spacing_(settings.spacing) {
+    validate(settings);
+    using S = typename VectorView<T, D>::Scalar;
+    // As in `BondList`: rounding must not decide whether a lattice neighbour is one.
+    const double slack = 1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon());
+    list_ = find_neighbours(points, static_cast<S>(radius_ * slack));
+  }
+
+  /// Calls `visit(j)` for each particle bonded to `i`.
+  template <class Visit>
+  void for_each(std::size_t i, Visit&& visit) const {
+    for (const Index j : list_[i])
+      if (bonded_(i, static_cast<std::size_t>(j))) visit(static_cast<std::size_t>(j));
+  }
+
+  /// The support of `i` by those of its neighbours for which `present(j)` holds.
+  template <class Present>
+  [[nodiscard]] double operator()(std::size_t i, const Present& present) const {
+    ShapeTensor<D> shape;
+    const Vector<double, D> here = points_[i].template cast<double>();
+    for_each(i, [&](std::size_t j) {
+      if (!present(j)) return;
+      const Vector<double, D> r0 = points_[j].template cast<double>() - here;
+      shape.add(r0, PaperWeight{}(std::min(r0.norm(), radius_), radius_));
+    });
+    return shape.support() / (spacing_ * spacing_);
+  }
+
+ private:
+  const VectorView<T, D>& points_;
+  const Bonded& bonded_;
+  double radius_;
+  double spacing_;
+  NeighbourList list_;
+};
+
+}  // namespace detail
+
+/// The weakly supported particles of the reference positions `points` (m), in order, with bonds
+/// between all pairs within the effective radius for which `bonded(i, j)` holds (symmetric). Throws
+/// `InputError` for settings out of range, positions that are not finite, coincident particles.
+template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
+[[nodiscard]] std::vector<WeakParticle> find_weak(const VectorView<T, D>& points, const SupportSettings& settings,
+                                                  const Bonded& bonded = {}, const E& execute = {}) {
+  const detail::Supports<T, D, Bonded> supports(points, settings, bonded);
+  std::vector<double> support(points.size());
+  execute(points.size(), [&](std::size_t i) { support[i] = supports(i, [](std::size_t) { return true; }); });
+  std::vector<WeakParticle> weak;
+  for (std::size_t i = 0; i < support.size(); ++i)
+    if (support[i] < settings.threshold) weak.push_back({static_cast<Index>(i), support[i]});
+  return weak;
+}
+
+/// The indices, in order, of the particles of `points` (m) that are left when weakly supported ones
+/// are removed until there is none, and then the connected pieces with a smaller share of all
+/// particles than `smallest_piece`. A removal only weakens what stays, so the set that is left is
+/// the one largest set in which all are supported, whatever the order of removal.
+///
+/// What is removed can be much of an organ one or two particles thick. Particles for which
+/// `keep(i)` holds are never removed, nor the piece that they are in; those of them that are weak
+/// are in `find_weak` of what is left. `thicken` fills up instead. Throws as `find_weak`.
+template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
+[[nodiscard]] std::vector<Index> remove_weak(const VectorView<T, D>& points, const SupportSettings& settings,
+                                             const Keep& keep = {}, const Bonded& bonded = {}) {
+  const detail::Supports<T, D, Bonded> supports(points, settings, bonded);
+  const std::size_t n = points.size();
+  std::vector<char> present(n, 1);
+  const auto is_present = [&](std::size_t j) { return present[j] != 0; };
+
+  std::vector<std::size_t> suspects(n);
+  for (std::size_t i = 0; i < n; ++i) suspects[i] = i;
+  std::vector<std::size_t> next;
+  while (!suspects.empty()) {
+    next.clear();
+    for (const std::size_t i : suspects) {
+      if (!present[i] || keep(i) || !(supports(i, is_present) < settings.threshold)) continue;
+      present[i] = 0;
+      supports.for_each(i, [&](std::size_t j) {
+        if (present[j]) next.push_back(j);
+      });
+    }
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    suspects.swap(next);
+  }
+
+  const auto least = settings.smallest_piece * static_cast<double>(n);
+  std::vector<char> seen(n, 0);
+  std::vector<std::size_t> piece;
+  for (std::size_t start = 0; start < n; ++start) {
+    if (!present[start] || seen[start]) continue;
+    piece.assign(1, start);
+    seen[start] = 1;
+    bool kept = false;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      kept = kept || keep(piece[k]);
+      supports.for_each(piece[k], [&](std::size_t j) {
+        if (!present[j] || seen[j]) return;
+        seen[j] = 1;
+        piece.push_back(j);
+      });
+    }
+    if (!kept && static_cast<double>(piece.size()) < least)
+      for (const std::size_t i : piece) present[i] = 0;
+  }
+
+  std::vector<Index> left;
+  for (std::size_t i = 0; i < n; ++i)
+    if (present[i]) left.push_back(static_cast<Index>(i));
+  return left;
+}
+
+}  // namespace hmps

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "hmps/bonds/shape_tensor.hpp"
+#include "hmps/bonds/weight.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/particles/support.hpp"
+
+namespace hmps {
+
+/// Allows every site: the predicate of `thicken` without forbidden regions.
+struct AllowEverywhere {
+  template <class V>
+  constexpr bool operator()(const V&) const {
+    return true;
+  }
+};
+
+namespace detail {
+
+/// Occupied sites of a lattice that may grow, by whole steps from the first point.
+template <int D>
+class SiteMap {
+ public:
+  using Site = std::array<std::int32_t, D>;
+
+  SiteMap(const Vector<double, D>& origin, const SupportSettings& settings)
+      : origin_(origin), spacing_(settings.spacing), radius_(settings.radius_ratio) {
+    const int reach = static_cast<int>(std::floor(radius_));
+    Site offset;
+    offset.fill(-reach);
+    for (;;) {
+      const Vector<double, D> r0 = steps(offset);
+      if (r0.norm() <= radius_ * (1 + 1e-9) && r0.squaredNorm() > 0) offsets_.push_back(offset);
+      std::size_t c = 0;
+      for (; c < D && offset[c] == reach; ++c) offset[c] = -reach;
+      if (c == D) break;
+      ++offset[c];
+    }
+  }
+
+  [[nodiscard]] static Vector<double, D> steps(const Site& site) {
+    Vector<double, D> result;
+    for (int c = 0; c < D; ++c) result[c] = static_cast<double>(site[static_cast<std::size_t>(c)]);
+    return result;
+  }
+  [[nodiscard]] Vector<double, D> position(const Site& site) const { return origin_ + spacing_ * steps(site); }
+
+  void add(std::size_t i, const Vector<double, D>& x) {
+    Site site;
+    for (int c = 0; c < D; ++c) {
+      const double step = (x[c] - origin_[c]) / spacing_;
+      const double whole = std::round(step);
+      require(std::abs(step - whole) < 0.01 && std::abs(whole) < (1 << 20), "hmps: particle ", i, " at (",
+              x.transpose(), ") is not on a lattice of spacing ", spacing_,
+              " m with the first particle; only lattices can be thickened");
+      site[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(whole);
+    }
+    require(add(site), "hmps: particle ", i, " at (", x.transpose(),
+            ") shares its lattice site with another; remove one of them");
+  }
+  bool add(const Site& site) {
+    if (!index_.emplace(key(site), sites_.size()).second) return false;
+    sites_.push_back(site);
+    return true;
+  }
+
+  [[nodiscard]] const std::vector<Site>& sites() const { return sites_; }
+  [[nodiscard]] bool has(const Site& site) const { return index_.contains(key(site)); }
+  [[nodiscard]] static Site moved(Site site, const Site& by) {
+    for (std::size_t c = 0; c < D; ++c) site[c] += by[c];
+    return site;
+  }
+
+  /// A in units of the squared spacing at `site`.
+  [[nodiscard]] ShapeTensor<D> shape(const Site& site) const {
+    ShapeTensor<D> result;
+    for (const Site& offset : offsets_) {
+      if (!has(moved(site, offset))) continue;
+      const Vector<double, D> r0 = steps(offset);
+      result.add(r0, PaperWeight{}(std::min(r0.norm(), radius_), radius_));
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] static std::uint64_t key(const Site& site) {
+    std::uint64_t result = 0;
+    for (const std::int32_t k : site) result = (result << 21) | (static_cast<std::uint64_t>(k + (1 << 20)) & 0x1fffff);
+    return result;
+  }
+
+  Vector<double, D> origin_;
+  double spacing_;
+  double radius_;
+  std::vector<Site> offsets_;
+  std::vector<Site> sites_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+};
+
+}  // namespace detail
+
+/// Lattice sites to add to `points` (m, on one lattice of `settings.spacing`) so that weakly
+/// supported particles get support: the other way than `remove_weak` to deal with what
+/// voxelisation leaves of thin organs, which it makes thicker by up to a spacing where they are
+/// weak. In each of up to `passes` passes every weak particle, in order, gets the free site beside
+/// it along an axis that helps its weakest direction most; of equal ones that with more neighbours
+/// of its own.
+///
+/// Sites for which `allowed(x)` does not hold stay free: the gap to another organ, say. Returns the
+/// new positions; what is still weak afterwards, `find_weak` tells. Throws `InputError` for settings
+/// out of range and points that are not on one lattice.
+template <class T, int D, class Allowed = AllowEverywhere>
+[[nodiscard]] std::vector<Vector<typename VectorView<T, D>::Scalar, D>> thicken(const VectorView<T, D>& points,
+                                                                                const SupportSettings& settings,
+                                                                                const Allowed& allowed = {},
+                                                                                int passes = 4) {
+  using S = typename VectorView<T, D>::Scalar;
+  using Map = detail::SiteMap<D>;
+  detail::validate(settings);
+  require_finite(points, "the position");
+  std::vector<Vector<S, D>> added;
+  if (points.size() == 0) return added;
+  Map map(points[0].template cast<double>(), settings);
+  for (std::size_t i = 0; i < points.size(); ++i) map.add(i, points[i].template cast<double>());
+
+  const std::size_t given = map.sites().size();
+  // Support only grows, so later passes look at what was weak and at what was added.
+  std::vector<std::size_t> suspects(given);
+  for (std::size_t i = 0; i < given; ++i) suspects[i] = i;
+  for (int pass = 0; pass < passes && !suspects.empty(); ++pass) {
+    const std::size_t before = map.sites().size();
+    std::vector<std::size_t> weak;
+    for (const std::size_t i : suspects) {
+      const auto site = map.sites()[i];
+      const Matrix<double, D> A = map.shape(site).A;
+      Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver;
+      solver.computeDirect(A);
+      if (!(solver.eigenvalues()[0] < settings.threshold)) continue;
+      weak.push_back(i);
+      const Vector<double, D> weakest = solver.eigenvectors().col(0);
+      double best = 0;
+      typename Map::Site chosen{};
+      for (std::size_t c = 0; c < D; ++c) {
+        for (const std::int32_t step : {-1, 1}) {
+          typename Map::Site offset{};
+          offset[c] = step;
+          const auto candidate = Map::moved(site, offset);
+          if (map.has(candidate) || !allowed(Vector<S, D>(map.position(candidate).template cast<S>()))) continue;
+          const double along = weakest[static_cast<Eigen::Index>(c)];
+          // The number of neighbours only decides between sites that help alike.
+          const double gain = std::round(1e3 * along * along) + 1e-3 * map.shape(candidate).neighbours;
+          if (gain > best) best = gain, chosen = candidate;
+        }
+      }
+      if (best > 0) map.add(chosen);
+    }
+    suspects.swap(weak);
+    for (std::size_t k = before; k < map.sites().size(); ++k) suspects.push_back(k);
+  }
+  for (std::size_t k = given; k < map.sites().size(); ++k)
+    added.push_back(map.position(map.sites()[k]).template cast<S>());
+  return added;
+}
+
+}  // namespace hmps

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "hmps/core/error.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace hmps {
+
+/// C_i^art of \paper{20} in Pa/m2, E_hat d / sum |r0|^2 w, from E_hat in Pa, the number of dimensions
+/// d, and 1 / sum |r0|^2 w in 1/m2.
+template <class T>
+[[nodiscard]] HMPS_INLINE T artificial_coefficient(const T& modulus, int dimension, const T& inverse_shape_trace) {
+  return modulus * T(dimension) * inverse_shape_trace;
+}
+
+/// Kondo's artificial potential force, \paper{19}: pulls each neighbour to where the deformation
+/// gradient would have it, so that the motions that F does not see cost energy. In the terms of
+/// `Coupling`: M -= C F and c += C.
+///
+/// `Modulus` is E_hat in Pa, the same for all particles, or a callable that gives that of the
+/// particles of a block: `[&](const auto& at) { return at(modulus); }`.
+template <class Modulus>
+struct Artificial {
+  Modulus modulus;
+
+  template <class K, int D>
+  HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) const {
+    const Lanes<K> C = artificial_coefficient(modulus_of(particles), D, particles.inverse_shape_trace());
+    const auto& F = particles.deformation_gradient;
+    for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) -= C * F(k % D, k / D);
+    coupling.c += C;
+  }
+
+ private:
+  template <class K, int D>
+  [[nodiscard]] HMPS_INLINE Lanes<K> modulus_of(const BlockOfParticles<K, D>& particles) const {
+    if constexpr (std::is_arithmetic_v<Modulus>) {
+      return Lanes<K>(modulus);
+    } else {
+      return modulus(particles);
+    }
+  }
+};
+
+/// Kondo's stabiliser with E_hat = `modulus` in Pa (the paper: Young's modulus by \paper{18}), or
+/// with a callable that gives it for the particles of a block. Throws `InputError` for a modulus
+/// that is negative or not finite.
+template <class Modulus>
+[[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
+  if constexpr (std::is_arithmetic_v<Modulus>)
+    require(modulus >= 0 && std::isfinite(static_cast<double>(modulus)),
+            "hmps: the modulus of the artificial force is ", modulus,
+            " Pa; it must not be negative (the paper takes Young's modulus)");
+  return {std::move(modulus)};
+}
+
+}  // namespace hmps

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <utility>
+
+#include "hmps/core/math.hpp"
+#include "hmps/laws/law.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace hmps {
+
+/// The elastic force of the Hamiltonian MPS method, \paper{13}: the gradient of the strain energy
+/// (\paper{5, 6}) with respect to the particles, M += F S A^-1 (see `Coupling`).
+///
+/// `Law` is a constitutive law, the same for all particles, or a callable that gives the law of the
+/// particles of a block: `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` with
+/// views of parameters per particle, or `at(table, body)` per body.
+template <class Law>
+struct Elastic {
+  Law law;
+
+  template <class K, int D>
+  HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) const {
+    if constexpr (std::invocable<const Law&, const BlockOfParticles<K, D>&>) {
+      add(law(particles), particles, coupling);
+    } else {
+      add(law, particles, coupling);
+    }
+  }
+
+ private:
+  template <class L, class K, int D>
+  HMPS_INLINE static void add(const L& law, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
+    using T = Lanes<K>;
+    const Matrix<T, D> stress = first_piola_kirchhoff(law, particles.deformation_gradient);
+    const Matrix<T, D> pull = product(stress, particles.shape_inverse);
+    for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pull(k % D, k / D);
+  }
+};
+
+/// The elastic force of a body made of `law`, \paper{13}, as a term of `internal_force`. Throws
+/// `InputError` for a law whose moduli are not positive, where the law can tell.
+template <class Law>
+[[nodiscard]] Elastic<Law> elastic(Law law) {
+  if constexpr (requires { law.validate(); }) law.validate();
+  return {std::move(law)};
+}
+
+}  // namespace hmps

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/lanes/blocks.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace hmps {
+
+/// Resists the change of volume of neighbourhoods instead of that of each particle, so that thin and nearly
+/// incompressible bodies bend as they should (mean dilatation: Nagtegaal, Parks and Rice 1974 for finite elements).
+///
+/// A particle and its bonded neighbours have the mean dilatation
+///
+///     theta_i = d_i sum_k d_k (J_k - 1),    J = det F,  k = i and its neighbours
+///
+/// and the body the energy V sum_i U(theta_i), here U = K theta^2 / 2. Its gradient is the force of a pressure that
+/// is averaged in the same way,
+///
+///     M_i += p_i cof(F_i) A_i^-1,           p_i = d_i sum_k d_k U'(theta_k)
+///
+/// (see `Coupling`), so that momentum, angular momentum and energy are kept as they are by \paper{13}. The d are such
+/// that d_i sum_k d_k = 1 everywhere, also at surfaces (Sinkhorn 1967): means of what is uniform are the same, and a
+/// uniform pressure too is left as it is.
+///
+/// The law of the particles keeps a bulk modulus of its own, which resists changes of J from one particle to the next;
+/// those of law and mean add up in what is larger than a neighbourhood. `split_bulk_modulus` shares one out.
+template <class Bulk>
+struct MeanDilatation {
+  Bulk bulk;
+
+  /// U'(theta) in Pa.
+  template <class K, int D>
+  [[nodiscard]] HMPS_INLINE Lanes<K> pressure(const BlockOfParticles<K, D>& particles,
+                                              const Lanes<K>& mean_dilatation) const {
+    if constexpr (std::is_arithmetic_v<Bulk>) {
+      return Lanes<K>(bulk) * mean_dilatation;
+    } else {
+      return bulk(particles) * mean_dilatation;
+    }
+  }
+};
+
+/// A bulk modulus in Pa shared between the law of the particles and `mean_dilatation`.
+template <class P>
+struct SplitBulkModulus {
+  P law, mean;
+};
+
+/// Leaves `shear_modulus` (Pa) twice to the law, which is Poisson's ratio 0.29, and the rest of `bulk_modulus` (Pa) to
+/// the mean dilatation. More in the law makes sheets of two particles too stiff, less makes those of three and more too
+/// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive.
+template <class P>
+[[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
+  require(bulk_modulus > 0 && std::isfinite(static_cast<double>(bulk_modulus)),
+          "hmps: the bulk modulus to be split is ", bulk_modulus, " Pa; it must be positive");
+  require(shear_modulus > 0 && std::isfinite(static_cast<double>(shear_modulus)),
+          "hmps: the shear modulus beside the bulk modulus to be split is ", shear_modulus, " Pa; it must be positive");
+  const P law = std::min(bulk_modulus, 2 * shear_modulus);
+  return {law, bulk_modulus - law};
+}
+
+/// The term of `internal_force` that resists the mean dilatation with the bulk modulus `bulk` in Pa: a number, or a
+/// callable that gives that of the particles of a block, `[&](const auto& at) { return at(per_particle); }`. Throws
+/// `InputError` for a number that is negative or not finite.
+template <class Bulk>
+[[nodiscard]] MeanDilatation<Bulk> mean_dilatation(Bulk bulk) {
+  if constexpr (std::is_arithmetic_v<Bulk>)
+    require(bulk >= 0 && std::isfinite(static_cast<double>(bulk)), "hmps: the bulk modulus of mean_dilatation is ",
+            bulk, " Pa; it must not be negative");
+  return {std::move(bulk)};
+}
+
+namespace detail {
+
+/// The sum of `values` over each particle of `block` and its bonded neighbours.
+template <class B, class K = typename B::Scalar>
+[[nodiscard]] HMPS_INLINE Lanes<K> sum_over_neighbourhood(const B& bonds, std::size_t block,
+                                                          const typename B::template Slots<1>& values) {
+  using T = Lanes<K>;
+  T sum = values.lanes(0, block * B::width);
+  bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+    sum += select(bond.weight() > K(0), bond.gather(values)[0], T(0));
+  });
+  return sum;
+}
+
+/// The d of `MeanDilatation` for every slot of `bonds`.
+template <class B, class K = typename B::Scalar>
+[[nodiscard]] typename B::template Slots<1> neighbourhood_scales(const B& bonds) {
+  using T = Lanes<K>;
+  // An iteration leaves about two thirds of the error, in boxes, sheets, bars and clouds: 25 for float, 70 for double.
+  constexpr int most_iterations = 100;
+  typename B::template Slots<1> scales(bonds.slot_count()), next(scales);
+  for (std::size_t slot = 0; slot < bonds.slot_count(); ++slot) scales(0, slot) = K(1);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    K error = 0;
+    for (std::size_t block = 0; block < bonds.block_count(); ++block) {
+      const std::size_t slot = block * B::width;
+      const T own = scales.lanes(0, slot), sum = sum_over_neighbourhood(bonds, block, scales), mean = own * sum;
+      next.keep(0, slot, sqrt(own / sum));
+      for (int l = 0; l < T::width; ++l) error = std::max(error, std::abs(mean.lane[l] - K(1)));
+    }
+    if (error < 16 * std::numeric_limits<K>::epsilon()) break;
+    std::swap(scales, next);
+  }
+  return scales;
+}
+
+}  // namespace detail
+
+}  // namespace hmps

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hmps/core/inline.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/lanes/staging.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace hmps {
+
+/// A term of `internal_force` that adds no force but writes the deformation gradient of every
+/// particle into the user's array as the first sweep passes, for contact and diagnostics.
+template <class T, int D>
+struct Record {
+  MatrixView<T, D> target;
+
+  template <class K>
+  HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>&) const {
+    const auto& F = particles.deformation_gradient;
+    detail::deliver(particles.blocks(), particles.block(), target, [&](int k) { return F(k % D, k / D); });
+  }
+};
+
+/// Records deformation gradients into `target`, one per particle of the bonds.
+template <class T, int D>
+[[nodiscard]] Record<T, D> record(const MatrixView<T, D>& target) {
+  return {target};
+}
+
+}  // namespace hmps

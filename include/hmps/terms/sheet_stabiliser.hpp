@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hmps/core/error.hpp"
+#include "hmps/terms/mean_dilatation.hpp"
+#include "hmps/terms/shear_wave_modulus.hpp"
+
+namespace hmps {
+
+/// What `sheet_stabiliser` chooses, in Pa.
+template <class P>
+struct SheetStabiliser {
+  P modulus;                 ///< E_hat of \paper{20}, for `artificial`
+  SplitBulkModulus<P> bulk;  ///< for the law and for `mean_dilatation`, which is to be left out where its share is zero
+};
+
+/// E_hat and the share of the bulk modulus in a mean dilatation with which a wide sheet of `layers` particles bends
+/// best: within 2 % of the right frequency from three particles on and within 5 % at two, for bulk moduli of 3 to 300
+/// shear moduli. Calibrated against bending waves in infinite sheets with the paper's weight and radius (Rayleigh and
+/// Lamb); docs/theory.md has the table, and tells what bars as narrow as high want instead.
+///
+///     const auto [E_hat, bulk] = sheet_stabiliser(4, law.bulk_modulus(), law.shear_modulus());
+///
+/// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
+/// Throws `InputError` for moduli that are not positive and for fewer than two layers.
+template <class P>
+[[nodiscard]] SheetStabiliser<P> sheet_stabiliser(int layers, P bulk_modulus, P shear_modulus) {
+  require(layers >= 2, "hmps: a sheet of ", layers,
+          " particles has no stabiliser; it takes two layers at least to bend");
+  const SplitBulkModulus<P> shared = split_bulk_modulus(bulk_modulus, shear_modulus);
+  const SplitBulkModulus<P> alone{bulk_modulus, P(0)};
+  const P ratio = bulk_modulus / shear_modulus, wave = shear_wave_modulus(shear_modulus);
+  const P less = shear_modulus, more = P(1.5) * shear_modulus;
+  if (layers == 2) return {ratio < P(5) ? less : ratio < P(10) ? wave : more, shared};
+  if (layers % 2 == 1 || ratio < P(15)) return {wave, alone};
+  return {ratio < P(100) ? more : wave, shared};
+}
+
+}  // namespace hmps

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "hmps/core/error.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace hmps {
+
+/// The viscous force of the standard MPS method, \paper{21}: rho nu times the MPS model of the
+/// Laplacian of the velocity. n^0 and lambda, which the paper leaves to its references, are those of
+/// a particle inside the body, n^0 = sum w and lambda = sum |r0|^2 w / sum w
+/// (`Blocks::standard_density` and `standard_lambda`).
+///
+/// It damps relative motion; at free surfaces, where the neighbourhood is not symmetric, it also
+/// damps a rigid spin.
+struct Viscous {
+  double density;    ///< rho in kg/m3.
+  double viscosity;  ///< nu in m2/s.
+
+  template <class K, int D>
+  [[nodiscard]] double damping(const Blocks<K, D>& blocks) const {
+    return density * viscosity * 2 * D / (blocks.standard_lambda() * blocks.standard_density());
+  }
+};
+
+/// MPS viscosity as a term of `internal_force`: density rho in kg/m3 and kinematic viscosity nu in
+/// m2/s (the paper: 1000 and 2e-3). Throws `InputError` for a density that is not positive or a
+/// negative viscosity.
+[[nodiscard]] inline Viscous viscous(double density, double viscosity) {
+  require(density > 0 && std::isfinite(density), "hmps: the density is ", density, " kg/m3; it must be positive");
+  require(viscosity >= 0 && std::isfinite(viscosity), "hmps: the viscosity is ", viscosity,
+          " m2/s; it must not be negative");
+  return {density, viscosity};
+}
+
+}  // namespace hmps

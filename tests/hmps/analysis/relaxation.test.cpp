@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/analysis/relaxation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hmps/terms/elastic.hpp"
+#include "hmps/laws/linear_elastic.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/viscous.hpp"
+
+namespace {
+
+using namespace hmps;
+
+constexpr double l0 = 2e-3, density = 1000, gravity = 9.81, young = 20e3;
+
+/// A column of `width`^(D-1) x `height` particles, of which the lowest layer is held.
+template <int D>
+std::vector<Vector<double, D>> column(int width, int height) {
+  std::vector<Vector<double, D>> points;
+  for (int i = 0; i < width; ++i)
+    for (int j = 0; j < (D == 3 ? width : 1); ++j)
+      for (int k = 0; k < height; ++k) {
+        Vector<double, D> place = Vector<double, D>::Zero();
+        place[0] = i * l0;
+        if (D == 3) place[1] = j * l0;
+        place[D - 1] = k * l0;
+        points.push_back(place);
+      }
+  return points;
+}
+
+/// The state of a body in `T` that stands in a field of gravity along `pull`.
+template <class T, int D>
+struct Standing {
+  std::vector<Vector<double, D>> reference;
+  std::vector<Vector<T, D>> position, velocity, load;
+  LatticeBonds<double, D> bonds;
+  Vector<double, D> pull = Vector<double, D>::Zero();
+  double volume = std::pow(l0, D);
+
+  explicit Standing(std::vector<Vector<double, D>> points)
+      : reference(std::move(points)), bonds(vectors(reference), {.spacing = l0}) {
+    for (const auto& place : reference) position.push_back(place.template cast<T>());
+    velocity.assign(position.size(), Vector<T, D>::Ones());  // at rest only after relax
+    load = velocity;
+    pull[0] = 0.3 * gravity;
+    pull[D - 1] = -gravity;
+  }
+  [[nodiscard]] auto x() { return vectors(position); }
+  [[nodiscard]] auto v() { return vectors(velocity); }
+  [[nodiscard]] auto f() { return vectors(load); }
+  [[nodiscard]] auto moves() const {
+    return [this](std::size_t i) { return reference[i][D - 1] > 0.5 * l0; };
+  }
+  [[nodiscard]] double weight() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) sum += moves()(i) ? density * pull.norm() * volume : 0.;
+    return sum;
+  }
+  /// The internal force with the weight.
+  template <class Force>
+  [[nodiscard]] auto with_weight(Force& force) {
+    return [&force, this](const auto& at, const auto& speed, const auto& out) {
+      force(at, speed, out);
+      for (std::size_t i = 0; i < out.size(); ++i) out.add(i, density * pull);
+    };
+  }
+};
+
+const LinearElastic<> linear = LinearElastic<>::from_young(young, 0.3);
+
+template <class T, int N>
+struct Kind {
+  using Scalar = T;
+  static constexpr int D = N;
+};
+using Kinds = testing::Types<Kind<double, 2>, Kind<float, 3>>;
+template <class K>
+struct RelaxOf : testing::Test {};
+TYPED_TEST_SUITE(RelaxOf, Kinds);
+
+/// What a matrix solver finds for the same particles: the stiffness is the derivative of the force, column by column.
+/// With residuals R the error of the displacements is K^-1 R, at most |R| over the least eigenvalue.
+TYPED_TEST(RelaxOf, FindsWhatASolverOfTheLinearSystemFinds) {
+  using T = typename TypeParam::Scalar;
+  constexpr int D = TypeParam::D;
+  Standing<T, D> body(column<D>(3, D == 2 ? 6 : 4));
+  if (std::is_same_v<T, float>) body.pull *= 100;  // it would sag by a few units in the last place of its positions
+  auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+  const std::size_t n = body.position.size();
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < n; ++i)
+    if (body.moves()(i)) free.push_back(i);
+  const auto size = static_cast<Eigen::Index>(free.size() * D);
+  Eigen::MatrixXd K(size, size);
+  Eigen::VectorXd weight(size);
+  std::vector<Vector<double, D>> moved = body.reference, answer(n);
+  const auto at = [](std::size_t a, int c) { return static_cast<Eigen::Index>(a) * D + c; };
+  for (std::size_t a = 0; a < free.size(); ++a)
+    for (int c = 0; c < D; ++c) {
+      weight[at(a, c)] = density * body.pull[c];
+      moved[free[a]][c] += l0;  // the force is linear: any displacement will do
+      force(vectors(moved), vectors(answer));
+      moved[free[a]][c] = body.reference[free[a]][c];
+      for (std::size_t b = 0; b < free.size(); ++b)
+        for (int d = 0; d < D; ++d) K(at(b, d), at(a, c)) = -answer[free[b]][d] / l0;
+    }
+  const Eigen::VectorXd exact = K.ldlt().solve(weight);
+  const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0];
+
+  const double tolerance = std::is_same_v<T, float> ? 1e-4 : 1e-6;
+  const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                           {.spacing = l0, .tolerance = tolerance, .load = body.weight(), .moves = body.moves()});
+  EXPECT_LE(found.residual, tolerance);
+  EXPECT_GT(found.iterations, 10);
+  EXPECT_GT(found.peaks, 1);
+  EXPECT_GE(found.evaluations, found.iterations);
+  double squares = 0, largest = 0;
+  for (std::size_t a = 0; a < free.size(); ++a)
+    for (int c = 0; c < D; ++c) {
+      const double u = static_cast<double>(body.position[free[a]][c]) - body.reference[free[a]][c];
+      squares += std::pow(u - exact[at(a, c)], 2);
+      largest = std::max(largest, std::abs(exact[at(a, c)]));
+    }
+  // The sum of the sizes of the residuals bounds the root of the sum of their squares.
+  EXPECT_LE(std::sqrt(squares), tolerance * body.weight() / body.volume / least);
+  EXPECT_LT(tolerance * body.weight() / body.volume / least, 0.2 * largest) << "the test cannot fail";
+}
+
+TYPED_TEST(RelaxOf, LeavesTheBodyAtRestAndTheRestWhereItWas) {
+  using T = typename TypeParam::Scalar;
+  constexpr int D = TypeParam::D;
+  Standing<T, D> body(column<D>(3, 4));
+  auto force = internal_force(body.bonds, elastic(MooneyRivlin<>::from_young(young, 1e5)), artificial(young));
+  const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                           {.spacing = l0, .tolerance = 0.01, .moves = body.moves()});
+  Vector<double, D> reaction = Vector<double, D>::Zero(), weight = reaction;
+  double unbalanced = 0, held = 0;
+  for (std::size_t i = 0; i < body.position.size(); ++i) {
+    EXPECT_EQ(body.velocity[i], (Vector<T, D>::Zero())) << i;
+    const Vector<double, D> f = body.load[i].template cast<double>();
+    weight += density * body.pull;
+    if (body.moves()(i)) {
+      unbalanced += f.norm();
+    } else {
+      EXPECT_EQ(body.position[i], body.reference[i].template cast<T>()) << i;
+      held += f.norm();
+      reaction += f;
+    }
+  }
+  // By default unbalanced forces are compared with what the held particles carry.
+  EXPECT_NEAR(found.load / (held * body.volume), 1, 1e-12);
+  EXPECT_NEAR(found.residual / (unbalanced / held), 1, 1e-12);
+  EXPECT_LE(found.residual, 0.01);
+  // Internal forces sum to zero: what is not carried is unbalanced.
+  EXPECT_LE((reaction - weight).norm(), unbalanced * (1 + 1e-6) + (std::is_same_v<T, float> ? 1e-3 * held : 0));
+}
+
+TYPED_TEST(RelaxOf, EveryExecutorGivesTheSameBits) {
+  using T = typename TypeParam::Scalar;
+  constexpr int D = TypeParam::D;
+  const auto backwards = [](std::size_t n, auto&& body) {
+    for (std::size_t i = n; i-- > 0;) body(i);
+  };
+  const auto settle = [](const auto& execute) {
+    Standing<T, D> body(column<D>(3, 4));
+    auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+    (void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                {.spacing = l0, .tolerance = 0.01, .moves = body.moves()}, execute);
+    return body.position;
+  };
+  EXPECT_EQ(settle(Serial{}), settle(backwards));
+}
+
+/// Half of the column is a hundred times stiffer. Where density follows stiffness the waves are equally fast; the force
+/// on a soft particle comes from up to two layers away, so that two layers of them are as heavy as the stiff ones.
+TEST(Relax, FindsTheSameWithAnyMassAndFasterWithOneThatFollowsStiffness) {
+  Standing<double, 3> body(column<3>(3, 8));
+  std::vector<double> modulus(body.position.size()), fictitious;
+  for (std::size_t i = 0; i < modulus.size(); ++i) {
+    modulus[i] = body.reference[i][2] < 3.5 * l0 ? 2e6 : young;
+    fictitious.push_back(density * (body.reference[i][2] < 5.5 * l0 ? 100 : 1));
+  }
+  const auto stiffness = scalars(modulus);
+  auto force = internal_force(body.bonds, elastic([&](const auto& at) {
+                                const auto E = at(stiffness);  // nu = 0
+                                return LinearElastic{E * 0.0, E * 0.5};
+                              }),
+                              artificial([&](const auto& at) { return at(stiffness); }));
+  const RelaxationSettings settings{.spacing = l0, .tolerance = 1e-5, .load = body.weight(), .moves = body.moves()};
+  const auto plain = relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings);
+  const auto end = body.position;
+  body.position = body.reference;
+  const auto quick = relax(body.with_weight(force), body.x(), body.v(), body.f(), scalars(fictitious), settings);
+  EXPECT_GT(quick.step, 8 * plain.step);  // sound crosses a spacing of the stiff half ten times as fast
+  EXPECT_LT(2 * quick.iterations, plain.iterations);
+  const double sag = (end.back() - body.reference.back()).norm();
+  for (std::size_t i = 0; i < end.size(); ++i) EXPECT_LT((body.position[i] - end[i]).norm(), 1e-3 * sag) << i;
+}
+
+TEST(Relax, FindsTheSameThroughViscosity) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto elastic_only = internal_force(body.bonds, elastic(linear), artificial(young));
+  auto viscous_too = internal_force(body.bonds, elastic(linear), artificial(young), viscous(density, 0.02));
+  const RelaxationSettings settings{.spacing = l0, .tolerance = 1e-6, .load = body.weight(), .moves = body.moves()};
+  (void)relax(body.with_weight(elastic_only), body.x(), body.v(), body.f(), density, settings);
+  const auto end = body.position;
+  body.position = body.reference;
+  const auto found = relax(body.with_weight(viscous_too), body.x(), body.v(), body.f(), density, settings);
+  // At rest the damping is gone: the unbalanced forces are those of the elastic body.
+  auto check = body.with_weight(elastic_only);
+  check(body.x(), body.v(), body.f());
+  double unbalanced = 0;
+  for (std::size_t i = 0; i < end.size(); ++i) unbalanced += body.moves()(i) ? body.load[i].norm() : 0.;
+  EXPECT_NEAR(unbalanced * body.volume / found.load, found.residual, 1e-9);
+  const double sag = (end.back() - body.reference.back()).norm();
+  for (std::size_t i = 0; i < end.size(); ++i) EXPECT_LT((body.position[i] - end[i]).norm(), 1e-4 * sag) << i;
+}
+
+/// A column that hangs and stretches to twice its length under its weight, put on at once: as it gets thinner its
+/// stable step shrinks, and relax has to follow.
+TEST(Relax, FollowsTheStableStepThroughALargeStrain) {
+  Standing<double, 3> body(column<3>(4, 6));
+  body.pull = Vector<double, 3>(0, 0, 4000);
+  auto force = internal_force(body.bonds, elastic(MooneyRivlin<>::from_young(young, 1e5)), artificial(young / 2));
+  const double before =
+      stable_step(force, body.x(), body.v(), density, {.spacing = l0, .margin = 0.1, .moves = body.moves()}).step;
+  RelaxationSettings settings{.spacing = l0, .load = body.weight(), .max_iterations = 5000, .moves = body.moves()};
+  const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings);
+  EXPECT_LE(found.residual, 1e-3);
+  EXPECT_GT(body.position.back()[2], 2 * body.reference.back()[2]);
+  EXPECT_LT(found.step, 0.8 * before);
+  // With the step of the start it does not come to rest, and says so.
+  body.position = body.reference;
+  settings.step = before;
+  EXPECT_THROW((void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings), StateError);
+}
+
+/// Two oscillators, the one at every step up to the limit of stability, 1 s, the other slow. Stopped without going back
+/// to the peak, the first would swing for ever where its period is four steps (a step of 1 / sqrt(2) s), and it would
+/// grow near the limit if the first kick were a whole one.
+TEST(Relax, IsHeldUpByNoModeAtAnyStableStep) {
+  for (const double step : {0.1, 0.3, 0.5, std::sqrt(0.5), 0.8, 0.9, 0.99}) {
+    std::vector<Vector<double, 2>> x{{1, 0}, {0, 1}}, v = x, f = x;
+    const double slow = 0.2;  // rad/s; the first has 2 rad/s
+    const auto force = [&](const auto& at, const auto&, const auto& out) {
+      for (std::size_t i = 0; i < 2; ++i) out.set(i, -(i == 0 ? 4. : slow * slow) * at[i]);
+    };
+    const auto found = relax(force, vectors(x), vectors(v), vectors(f), 1.0,
+                             {.spacing = 1, .tolerance = 1e-6, .load = 1, .max_iterations = 2000, .step = step});
+    EXPECT_LT(x[0].norm(), 1e-6 / 4) << step;
+    EXPECT_LT(x[1].norm(), 1e-6 / (slow * slow)) << step;
+    // No more than ten of the slow one's periods.
+    EXPECT_LT(found.iterations * step, 10 * 2 * std::acos(-1.0) / slow) << step;
+  }
+}
+
+std::string words_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Relax, SaysWhenItDoesNotConverge) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+  const std::string words = words_of([&] {
+    (void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                {.spacing = l0, .load = body.weight(), .max_iterations = 20, .moves = body.moves()});
+  });
+  EXPECT_TRUE(has(words, "relax made 20 iterations")) << words;
+  EXPECT_TRUE(has(words, "larger tolerance than 0.001")) << words;
+  // What is there is kept, and a second call goes on.
+  EXPECT_LT(body.position.back()[1], body.reference.back()[1]);
+  const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                           {.spacing = l0, .load = body.weight(), .moves = body.moves()});
+  EXPECT_LE(found.residual, 1e-3);
+}
+
+TEST(Relax, NamesTheParticleWhoseForceIsNotFinite) {
+  Standing<double, 2> body(column<2>(3, 6));
+  const auto bad = [](const auto&, const auto&, const auto& out) { out(7, 1) = std::nan(""); };
+  const std::string words = words_of([&] {
+    (void)relax(bad, body.x(), body.v(), body.f(), density,
+                {.spacing = l0, .load = 1, .step = 1e-5, .moves = body.moves()});
+  });
+  EXPECT_TRUE(has(words, "particle 7 ")) << words;
+  // Forces of particles that do not move mean nothing where the load is given.
+  const auto held = [](const auto&, const auto&, const auto& out) { out(0, 1) = std::nan(""); };
+  EXPECT_EQ(relax(held, body.x(), body.v(), body.f(), density,
+                  {.spacing = l0, .load = 1, .step = 1e-5, .moves = body.moves()})
+                .residual,
+            0);
+  EXPECT_THROW(
+      (void)relax(held, body.x(), body.v(), body.f(), density, {.spacing = l0, .step = 1e-5, .moves = body.moves()}),
+      StateError);
+}
+
+TEST(Relax, BadInputIsRefused) {
+  Standing<double, 2> body(column<2>(2, 3));
+  std::vector<Vector<double, 2>> few(2);
+  const auto none = [](const auto&, const auto&, const auto&) {};
+  const auto call = [&](const RelaxationSettings& settings) {
+    (void)relax(none, body.x(), body.v(), body.f(), density, settings);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(call({.spacing = 0, .load = 1}), InputError);
+  EXPECT_THROW(call({.spacing = l0, .tolerance = 0, .load = 1}), InputError);
+  EXPECT_THROW(call({.spacing = l0, .load = -1}), InputError);
+  EXPECT_THROW(call({.spacing = l0, .load = nan}), InputError);
+  EXPECT_THROW(call({.spacing = l0, .load = 1, .max_iterations = 0}), InputError);
+  EXPECT_THROW(call({.spacing = l0, .load = 1, .step = -1}), InputError);
+  EXPECT_THROW(call({.spacing = l0}), InputError) << "all move, no load";
+  EXPECT_THROW(call({.spacing = l0, .load = 1, .moves = [](std::size_t) { return false; }}), InputError);
+  EXPECT_THROW((void)relax(none, body.x(), vectors(few), body.f(), density, {.spacing = l0, .load = 1}), InputError);
+  EXPECT_THROW((void)relax(none, body.x(), body.v(), vectors(few), density, {.spacing = l0, .load = 1}), InputError);
+  EXPECT_THROW((void)relax(none, body.x(), body.v(), body.f(), 0.0, {.spacing = l0, .load = 1}), InputError);
+  body.position[1][1] = nan;
+  EXPECT_THROW(call({.spacing = l0, .load = 1}), InputError);
+}
+
+}  // namespace

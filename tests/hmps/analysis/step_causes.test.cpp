@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/analysis/step_causes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hmps/terms/elastic.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/bonds/bond_list.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/viscous.hpp"
+#include "reference/scenes.hpp"
+
+namespace {
+
+using namespace hmps;
+
+constexpr double density = 1000, young = 20e3, spacing = scenes::Scene<3>::spacing;
+
+/// A cube of soft tissue, the parts of its force, and a wall of springs under its lowest layer.
+struct Cube {
+  scenes::Points<3> reference = scenes::box<3>({6, 6, 6}), v{reference.size(), Vector<double, 3>::Zero()};
+  LatticeBonds<double, 3> bonds{vectors(reference), {.spacing = spacing}};
+  double modulus, viscosity, penalty;
+  InternalForce<LatticeBonds<double, 3>, Elastic<MooneyRivlin<>>> elastic_part{
+      bonds, elastic(MooneyRivlin<>::from_young(young, 1e6))};
+  InternalForce<LatticeBonds<double, 3>, Artificial<double>> stabiliser{bonds, artificial(modulus)};
+  InternalForce<LatticeBonds<double, 3>, Viscous> viscous_part{bonds, viscous(density, viscosity)};
+  struct Wall {
+    double penalty, base;
+    void operator()(const VectorView<const double, 3>& x, const VectorView<const double, 3>&,
+                    const VectorView<double, 3>& f) const {
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (x(i, 2) < base + spacing / 2) f(i, 2) -= penalty * (x(i, 2) - base);
+    }
+  } wall{penalty, reference[0][2]};
+
+  Cube(double e_hat, double nu, double k) : modulus(e_hat), viscosity(nu), penalty(k) {}
+
+  [[nodiscard]] auto whole() {
+    return [this, sum = reference](const auto& x, const auto& velocity, const auto& f) mutable {
+      const auto add = [&](auto& part) {
+        part(x, velocity, vectors(sum));
+        for (std::size_t i = 0; i < sum.size(); ++i) f.add(i, sum[i]);
+      };
+      add(elastic_part);
+      add(stabiliser);
+      add(viscous_part);
+      wall(x, velocity, f);
+    };
+  }
+  [[nodiscard]] std::vector<StepCause> causes(StableStep& found) {
+    auto force = whole();
+    const StableStepSettings settings{.spacing = spacing};
+    found = stable_step(force, vectors(reference), vectors(v), density, settings);
+    return step_causes(found, vectors(reference), vectors(v), density, settings, NamedForce{"elastic", elastic_part},
+                       NamedForce{"stabiliser", stabiliser}, NamedForce{"viscosity", viscous_part},
+                       NamedForce{"contact", wall});
+  }
+};
+
+TEST(StepCauses, TheStiffestPartIsNamedAndSharesAddUpToOne) {
+  struct Case {
+    double e_hat, nu, k;
+    const char* cause;
+  };
+  for (const Case& c : {Case{young, 2e-3, 1, "elastic"}, Case{1000 * young, 2e-3, 1, "stabiliser"},
+                        Case{young, 5, 1, "viscosity"}, Case{young, 2e-3, 5e14, "contact"}}) {
+    SCOPED_TRACE(c.cause);
+    Cube cube(c.e_hat, c.nu, c.k);
+    StableStep found;
+    const auto causes = cube.causes(found);
+    ASSERT_EQ(causes.size(), 4u);
+    EXPECT_EQ(causes[0].name, c.cause);
+    EXPECT_GT(causes[0].share, 0.5);
+    double sum = 0, k = 0, rate = 0;
+    for (const StepCause& cause : causes) {
+      sum += cause.share;
+      k += cause.stiffness;
+      rate += cause.damping;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-5);
+    EXPECT_NEAR(k, found.omega * found.omega, 1e-5 * k);
+    EXPECT_NEAR(rate, found.damping, 1e-5 * rate);
+    const std::string text = describe(found, causes, relative_support(cube.bonds, found.particle));
+    EXPECT_NE(text.find(std::string(": ") + c.cause), std::string::npos) << text;
+    EXPECT_NE(text.find("particle " + std::to_string(found.particle)), std::string::npos) << text;
+  }
+}
+
+TEST(StepCauses, SupportIsOneInsideAHalfAtAFaceAndLessAtEdges) {
+  const auto points = scenes::box<3>({7, 7, 7});
+  const LatticeBonds<double, 3> lattice(vectors(points), {.spacing = spacing});
+  const BondList<float, 3> list(vectors(points), {.spacing = spacing});
+  const std::size_t inside = 3 * 49 + 3 * 7 + 3, face = 3 * 7 + 3, corner = 0;
+  EXPECT_NEAR(relative_support(lattice, inside), 1.0, 1e-12);
+  EXPECT_NEAR(relative_support(lattice, face), 0.5, 1e-12);
+  EXPECT_NEAR(relative_support(list, inside), 1.0, 1e-6);
+  EXPECT_NEAR(relative_support(list, face), 0.5, 1e-6);
+  // Of the corner's 7 bonds, with w at 1, sqrt 2 and sqrt 3 spacings, A = a 1 + b (ones - 1): the smallest is a - b.
+  const double w1 = 0.75, w2 = 1.75 / std::sqrt(2.0) - 1, w3 = 1.75 / std::sqrt(3.0) - 1;
+  const double a = w1 + 2 * w2 + w3, b = w2 + w3, full = 2 * w1 + 8 * w2 + 8 * w3;
+  EXPECT_NEAR(relative_support(lattice, corner), (a - b) / full, 1e-12);
+  EXPECT_THROW((void)relative_support(lattice, points.size()), InputError);
+}
+
+TEST(StepCauses, BadInputIsRefusedAndNoLimitHasNoCause) {
+  Cube cube(young, 2e-3, 1);
+  const StableStepSettings settings{.spacing = spacing};
+  StableStep unknown{.limit = 1e-5};
+  EXPECT_THROW((void)step_causes(unknown, vectors(cube.reference), vectors(cube.v), density, settings,
+                                 NamedForce{"elastic", cube.elastic_part}),
+               InputError);
+  const auto nothing = [](const auto&, const auto&, const auto&) {};
+  const auto free = stable_step(nothing, vectors(cube.reference), vectors(cube.v), density, settings);
+  EXPECT_TRUE(
+      step_causes(free, vectors(cube.reference), vectors(cube.v), density, settings, NamedForce{"nothing", nothing})
+          .empty());
+}
+
+}  // namespace

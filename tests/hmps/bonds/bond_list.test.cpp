@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/bonds/bond_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "bonds_of_a_scene.hpp"
+#include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/bonds.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace {
+
+using namespace bonds_of_a_scene;
+
+template <class B>
+class BondList : public testing::Test {};
+using Models = testing::Types<hmps::BondList<float, 2>, hmps::BondList<double, 2>, hmps::BondList<float, 3>,
+                              hmps::BondList<double, 3>>;
+TYPED_TEST_SUITE(BondList, Models);
+
+TYPED_TEST(BondList, HoldsTheBondsOfEveryKindOfBody) {
+  static_assert(hmps::Bonds<TypeParam>);
+  for (const auto& scene : scenes::all<TypeParam::dimension>()) {
+    SCOPED_TRACE(scene.name);
+    const auto bonds = make<TypeParam>(scene);
+    equal_the_plain_ones(bonds, scene);
+    sweep_meets_every_bond_once(bonds);
+    EXPECT_GT(bonds.bytes(), bonds.size());
+  }
+}
+
+TYPED_TEST(BondList, RefusesBadInput) { refuse_bad_input<TypeParam>(); }
+
+// n^0, lambda and the 26 neighbours of a particle inside a cubic lattice (Eq. (21), r_e = 1.75 l0).
+TEST(BondList, KnowsTheStandardValuesOfTheLattice) {
+  const auto points = scenes::box<3>({5, 5, 5});
+  const double l0 = scenes::Scene<3>::spacing;
+  const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+  int neighbours = 0;
+  bonds.for_each_bond(62, [&](auto, const auto&, double) { ++neighbours; });
+  EXPECT_EQ(neighbours, 26);
+  EXPECT_NEAR(bonds.standard_density(), 7.432146, 5e-7);
+  EXPECT_NEAR(bonds.standard_lambda() / (l0 * l0), 1.405677, 5e-7);
+}
+
+// Any weight and radius: here one that does not vanish at the radius, which is the distance of
+// neighbours along the axes, in single precision.
+TEST(BondList, TakesAnotherWeightAndRadius) {
+  std::vector<hmps::Vector<float, 3>> points;
+  for (const auto& p : scenes::box<3>({6, 6, 6})) points.push_back(p.cast<float>());
+  const hmps::BondSettings settings{.spacing = scenes::Scene<3>::spacing, .radius_ratio = 1.0};
+  const hmps::BondList<float, 3> bonds(hmps::vectors(points), settings, hmps::EveryBond{},
+                                       [](double distance, double radius) {
+                                         EXPECT_LE(distance, radius);
+                                         return 2.0;
+                                       });
+  int neighbours = 0;
+  bonds.for_each_bond(43 + 36, [&](auto, const auto&, float w) {
+    ++neighbours;
+    EXPECT_EQ(w, 2.0f);
+  });
+  EXPECT_EQ(neighbours, 6);
+}
+
+TEST(BondList, OfNoParticlesIsEmpty) {
+  const scenes::Points<2> none;
+  const hmps::BondList<double, 2> bonds(hmps::vectors(none), {.spacing = 1});
+  EXPECT_EQ(bonds.size(), 0u);
+  EXPECT_EQ(bonds.block_count(), 0u);
+}
+
+}  // namespace

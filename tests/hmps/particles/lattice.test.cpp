@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/particles/lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using hmps::Box;
+using hmps::Vector;
+
+template <class S_, int D_>
+struct Case {
+  using S = S_;
+  static constexpr int D = D_;
+};
+template <class T>
+class Lattice : public testing::Test {};
+using Cases = testing::Types<Case<float, 2>, Case<double, 2>, Case<float, 3>, Case<double, 3>>;
+TYPED_TEST_SUITE(Lattice, Cases);
+
+struct Everywhere {
+  template <class V>
+  typename V::Scalar operator()(const V&) const {
+    return -1;
+  }
+};
+
+/// Runs the loop backwards over three threads, one after another.
+struct Shuffled {
+  template <class Body>
+  void operator()(std::size_t n, Body&& body) const {
+    for (std::size_t part = 0; part < 3; ++part)
+      std::thread([&] {
+        for (std::size_t i = n; i-- > 0;)
+          if (i % 3 == part) body(i);
+      }).join();
+  }
+};
+
+TYPED_TEST(Lattice, HoldsEverySiteOfTheBoxOnceInOrder) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  V upper = V::Constant(S(0.3));
+  upper[0] = S(0.5);
+  // 0.3 / 0.1 is below 3 in both scalars; the site at the end belongs to the box nevertheless.
+  const auto points = hmps::fill_lattice(Everywhere{}, Box<S, D>{V::Zero(), upper}, S(0.1));
+  ASSERT_EQ(points.size(), D == 2 ? 6u * 4u : 6u * 4u * 4u);
+  std::size_t n = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < (D == 2 ? 1 : 4); ++j)
+      for (int k = 0; k < 4; ++k, ++n) {
+        V site = V::Constant(S(j));
+        site[0] = S(i);
+        site[D - 1] = S(k);
+        EXPECT_LE((points[n] - S(0.1) * site).norm(), S(4) * std::numeric_limits<S>::epsilon());
+      }
+}
+
+TYPED_TEST(Lattice, HasTheVolumeOfTheShape) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const double l0 = 0.02;
+  const hmps::Ball<S, D> ball{.centre = V::Constant(S(0.013)), .radius = S(0.5)};
+  const auto points = hmps::fill_lattice(ball, Box<S, D>{V::Constant(S(-1)), V::Constant(S(1))}, static_cast<S>(l0));
+  const double expected = D == 2 ? std::numbers::pi / 4 : std::numbers::pi / 6;
+  EXPECT_NEAR(static_cast<double>(points.size()) * std::pow(l0, D) / expected, 1.0, 0.01);
+  for (const V& x : points) EXPECT_LT(ball(x), S(0));
+}
+
+TYPED_TEST(Lattice, StartsAtTheOriginThatIsAskedFor) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const V origin = V::Constant(S(0.25));
+  const auto points =
+      hmps::fill_lattice(Everywhere{}, Box<S, D>{V::Constant(S(-1)), V::Constant(S(1))}, S(0.5), origin);
+  ASSERT_EQ(points.size(), D == 2 ? 16u : 64u);
+  EXPECT_EQ(points.front(), V(V::Constant(S(-0.75))));
+  EXPECT_EQ(points.back(), V(V::Constant(S(0.75))));
+}
+
+TYPED_TEST(Lattice, IsTheSameForEveryExecutor) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const hmps::Ball<S, D> ball{.centre = V::Zero(), .radius = S(1)};
+  const Box<S, D> box{V::Constant(S(-1)), V::Constant(S(1))};
+  const auto serial = hmps::fill_lattice(ball, box, S(0.1));
+  const auto other = hmps::fill_lattice(ball, box, S(0.1), V(V::Zero()), Shuffled{});
+  EXPECT_EQ(serial, other);
+}
+
+TYPED_TEST(Lattice, IsEmptyWhereThereIsNothing) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const auto nowhere = [](const V&) { return S(1); };
+  EXPECT_TRUE(hmps::fill_lattice(nowhere, Box<S, D>{V::Zero(), V::Ones()}, S(0.25)).empty());
+  EXPECT_TRUE(hmps::fill_lattice(Everywhere{}, Box<S, D>{V::Constant(S(0.1)), V::Constant(S(0.2))}, S(1)).empty());
+}
+
+TYPED_TEST(Lattice, RefusesWhatCannotBeFilled) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const Box<S, D> unit{V::Zero(), V::Ones()};
+  const S infinity = std::numeric_limits<S>::infinity();
+  for (const S spacing : {S(0), S(-1), std::numeric_limits<S>::quiet_NaN(), infinity})
+    EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, unit, spacing), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, Box<S, D>{V::Ones(), V::Zero()}, S(0.1)), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, Box<S, D>{V::Zero(), V::Constant(infinity)}, S(0.1)),
+               hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, unit, S(0.1), V(V::Constant(infinity))), hmps::InputError);
+  const auto nan = [](const V&) { return std::numeric_limits<S>::quiet_NaN(); };
+  EXPECT_THROW((void)hmps::fill_lattice(nan, unit, S(0.5)), hmps::InputError);
+  try {
+    (void)hmps::fill_lattice(Everywhere{}, unit, S(1e-7));
+    ADD_FAILURE() << "1e14 sites or more were accepted";
+  } catch (const hmps::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("sites"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("larger spacing"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace

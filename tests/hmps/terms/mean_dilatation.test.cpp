@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/terms/mean_dilatation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "../force/equations.hpp"
+#include "hmps/diagnostics/energy.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/viscous.hpp"
+
+namespace {
+
+using namespace equations;
+
+template <int D>
+Vectors<D> force_of(const auto& bonds, const Vectors<D>& x, const auto&... terms) {
+  auto force = hmps::internal_force(bonds, terms...);
+  Vectors<D> f(x.size());
+  force(hmps::vectors(x), hmps::vectors(f));
+  return f;
+}
+
+/// d_i sum_k d_k = 1 over each particle and its neighbours.
+std::vector<double> scales(const auto& body) {
+  std::vector<double> d(body.size(), 1.0), next(d);
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      double sum = d[i];
+      body.for_each_bond(i, [&](const auto& bond) { sum += d[bond.j]; });
+      next[i] = std::sqrt(d[i] / sum);
+    }
+    d = next;
+  }
+  return d;
+}
+
+template <class B>
+class MeanDilatation : public testing::Test {};
+using Models = testing::Types<hmps::LatticeBonds<float, 3>, hmps::BondList<double, 2>>;
+TYPED_TEST_SUITE(MeanDilatation, Models);
+
+// f_i = -(1 / V) dH/dx_i with H = sum V K_i theta_i^2 / 2, by central differences of an energy summed here.
+TYPED_TEST(MeanDilatation, ForceIsTheGradientOfTheEnergy) {
+  constexpr int D = TypeParam::dimension;
+  for (const bool jittered : {false, true}) {
+    if (jittered && is_lattice<TypeParam>) continue;
+    const auto scene = bent_box<D>(jittered);
+    const std::size_t n = scene.x.size();
+    const std::vector<double> bulk = Materials(n).d1;
+    const auto bonds = make_bonds<TypeParam>(scene);
+    const auto f =
+        force_of<D>(bonds, scene.x, hmps::mean_dilatation([&](const auto& at) { return at(hmps::scalars(bulk)); }));
+
+    const plain::Body<double, D> body(Expected<D>::convert(scene.reference), 1.75 * scene.spacing);
+    auto x = Expected<D>::convert(scene.x);
+    std::vector<Eigen::Matrix<double, D, D>> F(n);
+    const std::vector<double> scale = scales(body);
+    const auto energy = [&] {
+      body.deformation_gradient(x, F);
+      double H = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        double sum = scale[i] * (F[i].determinant() - 1);
+        body.for_each_bond(i, [&](const auto& bond) { sum += scale[bond.j] * (F[bond.j].determinant() - 1); });
+        H += bulk[i] / 2 * std::pow(scale[i] * sum, 2);
+      }
+      return H;
+    };
+    const double H = energy();
+    std::vector<hmps::Matrix<double, D>> gradients(F.begin(), F.end());
+    EXPECT_NEAR(hmps::mean_dilatation_energy(bonds, hmps::matrices(gradients), hmps::scalars(bulk), 1.0), H,
+                64 * std::numeric_limits<typename TypeParam::Scalar>::epsilon() * H);
+
+    expect_minus_gradient<D>(f, x, energy, scene.spacing, Tolerance<typename TypeParam::Scalar, D>(scene).elastic);
+  }
+}
+
+// Where all particles are strained alike theta is J - 1: shared between law and mean, a bulk modulus gives the same
+// force as in the law alone.
+TYPED_TEST(MeanDilatation, SharesTheBulkModulusOfAUniformStrain) {
+  constexpr int D = TypeParam::dimension;
+  scenes::Scene<D> scene;
+  scene.reference = scenes::box<D>(scenes::extent<D>(7, 5, 4));
+  hmps::Matrix<double, D> strain = hmps::Matrix<double, D>::Identity();
+  strain(0, 0) = 1.2;
+  strain(0, 1) = 0.3;
+  strain(1, 1) = 0.9;
+  for (const auto& p : scene.reference) scene.x.push_back(strain * p);
+  scene.v.resize(scene.x.size());
+  const auto bonds = make_bonds<TypeParam>(scene);
+  const double bulk = 2.4e4, shear = 6400;
+  const auto split = hmps::split_bulk_modulus(bulk, shear);
+  EXPECT_EQ(split.law + split.mean, bulk);
+  const auto law = [&](double k) { return hmps::elastic(hmps::MooneyRivlin<double>{shear / 4, shear / 4, k / 2}); };
+  const auto shared = force_of<D>(bonds, scene.x, law(split.law), hmps::mean_dilatation(split.mean));
+  const auto alone = force_of<D>(bonds, scene.x, law(bulk));
+  const Tolerance<typename TypeParam::Scalar, D> tolerance(scene);
+  const double difference = largest_difference<D>(shared, [&](std::size_t i) { return alone[i]; });
+  EXPECT_LE(difference, 2 * tolerance.elastic);
+}
+
+// The particles that move get the same bits whether or not the others are left out.
+TYPED_TEST(MeanDilatation, IsTheSameForTheParticlesThatMove) {
+  constexpr int D = TypeParam::dimension;
+  scenes::Scene<D> scene;
+  scene.reference = scenes::box<D>(scenes::extent<D>(60, 7, 5));
+  scenes::move(scene);
+  const auto bonds = make_bonds<TypeParam>(scene);
+  auto force =
+      hmps::internal_force(bonds, hmps::artificial(2e4), hmps::mean_dilatation(1e5), hmps::viscous(1000, 2e-3));
+  Vectors<D> all(scene.x.size()), some(all);
+  force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(all));
+  const auto moves = [&](std::size_t i) { return scene.reference[i][0] < 20 * scene.spacing; };
+  auto restricted = force;
+  restricted.restrict_to(moves);
+  for (int time = 0; time < 2; ++time) {
+    restricted(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(some));
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (moves(i)) {
+        ASSERT_EQ(some[i], all[i]) << i;
+      }
+  }
+}
+
+TEST(SplitBulkModulus, NamesWhatIsWrong) {
+  EXPECT_THROW((void)hmps::split_bulk_modulus(0.0, 1.0), hmps::InputError);
+  EXPECT_THROW((void)hmps::split_bulk_modulus(1.0, -1.0), hmps::InputError);
+  EXPECT_THROW((void)hmps::mean_dilatation(-1.0), hmps::InputError);
+  EXPECT_EQ(hmps::split_bulk_modulus(1.0, 1.0).mean, 0);
+}
+
+}  // namespace

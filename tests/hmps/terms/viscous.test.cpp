@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/terms/viscous.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "../force/equations.hpp"
+#include "../bonds/bonds_of_a_scene.hpp"
+#include "hmps/force/internal_force.hpp"
+
+namespace {
+
+using namespace equations;
+using bonds_of_a_scene::error_of;
+using bonds_of_a_scene::has;
+
+template <class B>
+class ViscousForce : public testing::Test {};
+using Models = testing::Types<hmps::LatticeBonds<float, 3>, hmps::LatticeBonds<double, 2>, hmps::BondList<float, 2>,
+                              hmps::BondList<double, 3>>;
+TYPED_TEST_SUITE(ViscousForce, Models);
+
+// Eq. (21) alone; the momentum stays.
+TYPED_TEST(ViscousForce, IsThatOfThePlainEquation) {
+  constexpr int D = TypeParam::dimension;
+  for (const auto& scene : scenes::all<D>()) {
+    SCOPED_TRACE(scene.name);
+    if (is_lattice<TypeParam> && scene.jittered) continue;
+    const auto bonds = make_bonds<TypeParam>(scene);
+    auto force = hmps::internal_force(bonds, hmps::viscous(density, viscosity));
+    Vectors<D> f(scene.x.size());
+    force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(f));
+    const Expected<D> expected(scene, Materials(scene.x.size()), bonds.standard_lambda(), bonds.standard_density());
+    const Tolerance<typename TypeParam::Scalar, D> tolerance(scene);
+    EXPECT_LE(largest_difference<D>(f, [&](std::size_t i) { return expected.viscous[i]; }), tolerance.viscous);
+    hmps::Vector<double, D> sum = hmps::Vector<double, D>::Zero();
+    for (const auto& value : f) sum += value;
+    EXPECT_LE(sum.norm(), tolerance.viscous * std::sqrt(static_cast<double>(f.size())));
+  }
+}
+
+// The model of the Laplacian is exact for a quadratic velocity field inside a cubic lattice.
+TEST(Viscous, IsTheLaplacianOfAQuadraticField) {
+  const double l0 = scenes::Scene<3>::spacing;
+  const auto points = scenes::box<3>({5, 5, 5});
+  const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+  Vectors<3> v, f(points.size());
+  for (const auto& p : points) v.push_back({p[1] * p[1], 0, 3 * p[2] * p[2] - p[0] * p[0]});
+  auto force = hmps::internal_force(bonds, hmps::viscous(1000, 2e-3));
+  force(hmps::vectors(points), hmps::vectors(v), hmps::vectors(f));
+  EXPECT_NEAR(f[62][0], 1000 * 2e-3 * 2, 1e-7);
+  EXPECT_NEAR(f[62][1], 0, 1e-7);
+  EXPECT_NEAR(f[62][2], 1000 * 2e-3 * 4, 1e-7);
+}
+
+// d = rho nu 2 D / (lambda n^0) with n^0 = 7.432146 and lambda = 1.405677 l0^2.
+TEST(Viscous, DampingHasTheStandardValues) {
+  const auto points = scenes::box<3>({4, 4, 4});
+  const double l0 = scenes::Scene<3>::spacing;
+  const hmps::LatticeBonds<float, 3> bonds(hmps::vectors(points), {.spacing = l0});
+  const double expected = 1000 * 2e-3 * 6 / (1.405677 * l0 * l0 * 7.432146);
+  EXPECT_NEAR(hmps::viscous(1000, 2e-3).damping(bonds), expected, 1e-6 * expected);
+}
+
+TEST(Viscous, RefusesImpossibleFluids) {
+  EXPECT_NO_THROW((void)hmps::viscous(1000, 0));
+  for (const double bad : {0.0, -1000.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const std::string text = error_of([&] { (void)hmps::viscous(bad, 2e-3); });
+    EXPECT_TRUE(has(text, "the density is " + hmps::message(bad) + " kg/m3")) << text;
+  }
+  for (const double bad : {-2e-3, std::numeric_limits<double>::infinity()}) {
+    const std::string text = error_of([&] { (void)hmps::viscous(1000, bad); });
+    EXPECT_TRUE(has(text, "the viscosity is " + hmps::message(bad) + " m2/s")) << text;
+  }
+}
+
+}  // namespace
