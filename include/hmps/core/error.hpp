@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sstream>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "hmps/core/inline.hpp"
 
 namespace hmps {
 
@@ -24,20 +30,101 @@ struct StateError : Error {
   using Error::Error;
 };
 
+namespace detail {
+
+/// One part of a message, whatever its type: words, a number, or the numbers of an Eigen vector. Refers to it. The text
+/// is made by functions that are no templates, since a header-only library pays for each place that can throw.
+class MessagePart {
+ public:
+  template <class T>
+  MessagePart(const T& part) {
+    if constexpr (std::convertible_to<const T&, std::string_view>) {
+      words_ = part;
+    } else if constexpr (std::signed_integral<T>) {
+      kind_ = Kind::integer;
+      integer_ = part;
+    } else if constexpr (std::unsigned_integral<T>) {
+      kind_ = Kind::unsigned_integer;
+      unsigned_ = part;
+    } else if constexpr (std::floating_point<T>) {
+      kind_ = Kind::number;
+      number_ = static_cast<double>(part);
+    } else {
+      kind_ = Kind::vector;
+      vector_ = &part;
+      component_ = [](const void* vector, std::ptrdiff_t k, double& number) {
+        const T& numbers = *static_cast<const T*>(vector);
+        if (k >= numbers.size()) return false;
+        number = static_cast<double>(numbers(k));
+        return true;
+      };
+    }
+  }
+
+  void append_to(std::string& text) const {
+    switch (kind_) {
+      case Kind::words:
+        text += words_;
+        break;
+      case Kind::integer:
+        text += std::to_string(integer_);
+        break;
+      case Kind::unsigned_integer:
+        text += std::to_string(unsigned_);
+        break;
+      case Kind::number:
+        append_number(text, number_);
+        break;
+      case Kind::vector:
+        double number = 0;
+        for (std::ptrdiff_t k = 0; component_(vector_, k, number); ++k) {
+          if (k > 0) text += ' ';
+          append_number(text, number);
+        }
+    }
+  }
+
+ private:
+  enum class Kind { words, integer, unsigned_integer, number, vector };
+  /// With nine digits, which tell any two floats apart.
+  static void append_number(std::string& text, double number) {
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 9).ptr);
+  }
+
+  Kind kind_ = Kind::words;
+  std::string_view words_;
+  union {
+    long long integer_;
+    unsigned long long unsigned_;
+    double number_;
+    const void* vector_ = nullptr;
+  };
+  bool (*component_)(const void*, std::ptrdiff_t, double&) = nullptr;
+};
+
+[[nodiscard]] inline std::string join(std::initializer_list<MessagePart> parts) {
+  std::string text;
+  for (const MessagePart& part : parts) part.append_to(text);
+  return text;
+}
+[[noreturn]] HMPS_COLD inline void throw_input_error(std::initializer_list<MessagePart> parts) {
+  throw InputError(join(parts));
+}
+
+}  // namespace detail
+
 /// Joins its arguments into one message; numbers are written with nine digits, which
 /// tell any two floats apart.
 template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
-  std::ostringstream text;
-  text.precision(9);
-  ((text << parts), ...);
-  return text.str();
+  return detail::join({detail::MessagePart(parts)...});
 }
 
 /// Throws an `InputError` made of `parts` unless `condition` holds.
 template <class... Parts>
 void require(bool condition, const Parts&... parts) {
-  if (!condition) throw InputError(message(parts...));
+  if (!condition) detail::throw_input_error({detail::MessagePart(parts)...});
 }
 
 }  // namespace hmps

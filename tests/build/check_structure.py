@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks the structure of include/hmps: which folder may include which, no circles, nothing too long to read.
+
+Folders are layers: a header includes headers of its own folder and of those before it in LAYERS. No header includes
+itself by way of others. A header has at most MOST_LINES lines, a function at most MOST_FUNCTION_LINES.
+"""
+
+import pathlib
+import re
+import sys
+
+LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact", "motion", "shapes", "particles",
+          "time", "analysis", "diagnostics", "executors"]
+MOST_LINES = 300
+MOST_FUNCTION_LINES = 60
+
+INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)
+# What opens a block that is no function.
+SCOPE = re.compile(r"\b(namespace|struct|class|union|enum|concept)\b[^;(]*$|=\s*$|\brequires\b[^)]*$|extern \"C\"")
+
+
+def without_comments(text):
+    """The text with comments, strings and characters blanked, line breaks kept."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match.group(0))
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])\'', blank, text, flags=re.S)
+
+
+def functions(text):
+    """(first line, number of lines) of each outermost block that belongs to a function."""
+    text = without_comments(text)
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", lambda m: re.sub(r"[^\n]", " ", m.group(0)), text, flags=re.M)
+    found, scopes, begin = [], [], 0  # scopes: True for a block within a function
+    for k, character in enumerate(text):
+        if character == "{":
+            head = text[begin:k].strip()
+            inside = bool(scopes) and scopes[-1] is not None
+            if inside:
+                scopes.append(0)
+            elif SCOPE.search(head) and not head.endswith(")"):
+                scopes.append(None)
+            else:
+                scopes.append(text.count("\n", 0, k) + 1)
+            begin = k + 1
+        elif character == "}":
+            first = scopes.pop() if scopes else None
+            if first:
+                found.append((first, text.count("\n", 0, k) + 2 - first))
+            begin = k + 1
+        elif character == ";":
+            begin = k + 1
+    return found
+
+
+def circle(graph):
+    """A list of headers, each of which includes the next, that ends where it begins; empty if there is none."""
+    done, path = set(), []
+
+    def visit(node):
+        if node in path:
+            return path[path.index(node):] + [node]
+        if node in done:
+            return []
+        path.append(node)
+        for other in graph.get(node, []):
+            found = visit(other)
+            if found:
+                return found
+        path.pop()
+        done.add(node)
+        return []
+
+    for start in graph:
+        found = visit(start)
+        if found:
+            return found
+    return []
+
+
+def check(root):
+    problems, graph = [], {}
+    for path in sorted((root / "include").rglob("*.hpp")):
+        name = str(path.relative_to(root / "include"))
+        text = path.read_text(encoding="utf-8")
+        graph[name] = INCLUDE.findall(text)
+        if text.count("\n") > MOST_LINES and name != "hmps/hmps.hpp":
+            problems.append(f"include/{name} has {text.count(chr(10))} lines; {MOST_LINES} are allowed")
+        for line, length in functions(text):
+            if length > MOST_FUNCTION_LINES:
+                problems.append(f"include/{name}:{line}: a function of {length} lines; {MOST_FUNCTION_LINES} are allowed")
+        folder = name.split("/")[1]
+        if name == "hmps/hmps.hpp":
+            continue
+        if folder not in LAYERS:
+            problems.append(f"include/{name}: the folder {folder} has no place in LAYERS")
+            continue
+        for other in graph[name]:
+            target = other.split("/")[1]
+            if target in LAYERS and LAYERS.index(target) > LAYERS.index(folder):
+                problems.append(f"include/{name} includes {other}: {folder} is below {target}")
+    found = circle(graph)
+    if found:
+        problems.append("headers that include each other: " + " -> ".join(found))
+    return problems
+
+
+if __name__ == "__main__":
+    problems = check(pathlib.Path(__file__).resolve().parents[2])
+    print("\n".join(problems) if problems else "include/hmps: layers, circles and lengths are as they should be")
+    sys.exit(1 if problems else 0)
