@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
@@ -88,7 +89,11 @@ std::uint64_t digest(std::string_view text) {
 /// All that the bits of a run depend on, as text.
 RunSettings fingerprint(const Options& options, const Case& chosen, const std::filesystem::path& data, double friction,
                         double first_step, double penalty) {
-  const auto text = [](double value) { return hmps::message(std::hexfloat, value); };
+  const auto text = [](double value) {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%a", value);
+    return std::string(digits);
+  };
   RunSettings settings{{"case", std::string(chosen.name)},
                        {"scalar", options.single_precision ? "float" : "double"},
                        {"spacing", text(options.spacing)},
