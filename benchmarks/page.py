@@ -24,13 +24,19 @@ def read(path):
     return runs, found["context"]
 
 
-def machine():
-    """The processor and its widest registers."""
+def processor():
+    """Its name, and the name of its widest registers or None."""
     entries = (line.split(":", 1) for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines() if ":" in line)
     about = {key.strip(): value.strip() for key, value in entries}
     flags = about.get("flags", "").split()
     widest = next((name for name in ("AVX512F", "AVX2", "AVX", "SSE2") if name.lower() in flags), None)
-    return about.get("model name", "an unnamed processor") + (f" with {widest.removesuffix('F')}" if widest else "")
+    return about.get("model name", "an unnamed processor"), widest and widest.removesuffix("F").replace("AVX512", "AVX-512")
+
+
+def machine():
+    """The processor and its widest registers."""
+    name, widest = processor()
+    return name + (f" with {widest}" if widest else "")
 
 
 def digits(value, count=3):
@@ -75,7 +81,7 @@ class Page:
     def preface(self):
         caches = "".join(f", L{c['level']} {c['size'] // 1024} KiB" for c in self.context["caches"]
                          if c["type"] != "Instruction")
-        yield from ["# What a step costs", ""]
+        yield from [f"# What a step costs with {processor()[1]}", ""]
         yield from words("This page is written by `benchmarks/run`; nothing in it is typed by hand. Every component of "
                          "the library has its benchmarks, by Google Benchmark: `benchmarks/hmps/<topic>/<header>"
                          ".bench.cpp`, one program, `hmps_bench`, which takes the arguments of Google Benchmark "
