@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "../common/files.hpp"
-#include "comparison.hpp"
 #include "options.hpp"
-#include "progress.hpp"
+#include "output/comparison.hpp"
+#include "output/progress.hpp"
 #include "run_case.hpp"
 
 namespace swallowing {

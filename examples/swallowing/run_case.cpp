@@ -5,10 +5,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,15 +14,18 @@
 #include <vector>
 
 #include "../common/files.hpp"
-#include "build_scene.hpp"
-#include "checkpoint.hpp"
-#include "frames.hpp"
-#include "measure.hpp"
-#include "observe.hpp"
-#include "pictures.hpp"
-#include "progress.hpp"
-#include "series.hpp"
-#include "simulation.hpp"
+#include "output/checkpoint.hpp"
+#include "output/effort.hpp"
+#include "output/fingerprint.hpp"
+#include "output/frames.hpp"
+#include "output/measure.hpp"
+#include "output/observe.hpp"
+#include "output/pictures.hpp"
+#include "output/progress.hpp"
+#include "output/series.hpp"
+#include "scene/build_scene.hpp"
+#include "simulation/schedule.hpp"
+#include "simulation/simulation.hpp"
 
 namespace swallowing {
 namespace {
@@ -34,84 +35,6 @@ constexpr double checkpoint_interval = 0.02;  // s, simulated
 constexpr double limit_interval = 0.02;       // s, simulated
 constexpr double least_limit = 0.05;          // of the step, as a share of that at rest
 constexpr double volume_time = 1.667;         // s, when the paper states det F
-
-/// Times k * interval that come one after the other; `due` is true once for each.
-class Every {
- public:
-  explicit Every(double interval) : interval_(interval) {}
-  /// At `time`, from which on steps of `step` are taken.
-  [[nodiscard]] bool due(double time, double step) {
-    if (time < static_cast<double>(next_) * interval_ - step / 2) return false;
-    skip(time, step);
-    return true;
-  }
-  /// Leaves out all until `time`.
-  void skip(double time, double step) {
-    next_ = static_cast<std::uint64_t>(std::floor((time + step / 2) / interval_)) + 1;
-  }
-
- private:
-  double interval_;
-  std::uint64_t next_ = 0;
-};
-
-/// Seconds that a run took, in all and for contact, for each tenth of a second that it simulated.
-struct Effort {
-  static constexpr double tenth = 0.1;  // s
-  std::vector<double> wall, contact;
-
-  /// Adds what was spent until the simulated time came to `time`.
-  void add(double time, double wall_seconds, double contact_seconds) {
-    const auto bin = static_cast<std::size_t>(std::max(std::ceil(time / tenth - 1e-6), 1.0)) - 1;
-    wall.resize(std::max(wall.size(), bin + 1));
-    contact.resize(wall.size());
-    wall[bin] += wall_seconds;
-    contact[bin] += contact_seconds;
-  }
-  [[nodiscard]] double seconds() const { return std::accumulate(wall.begin(), wall.end(), 0.0); }
-  [[nodiscard]] double contact_share() const {
-    return std::accumulate(contact.begin(), contact.end(), 0.0) / std::max(seconds(), 1e-9);
-  }
-  [[nodiscard]] std::vector<double> contact_share_per_tenth() const {
-    std::vector<double> shares;
-    for (std::size_t bin = 0; bin < wall.size(); ++bin) shares.push_back(contact[bin] / std::max(wall[bin], 1e-9));
-    return shares;
-  }
-};
-
-/// A number that changes with the text (FNV-1a).
-std::uint64_t digest(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
-
-/// All that the bits of a run depend on, as text.
-RunSettings fingerprint(const Options& options, const Case& chosen, const std::filesystem::path& data, double friction,
-                        double first_step, double penalty) {
-  const auto text = [](double value) {
-    char digits[40];
-    std::snprintf(digits, sizeof digits, "%a", value);
-    return std::string(digits);
-  };
-  RunSettings settings{{"case", std::string(chosen.name)},
-                       {"scalar", options.single_precision ? "float" : "double"},
-                       {"spacing", text(options.spacing)},
-                       {"lattice shift", text(options.lattice_shift)},
-                       {"region H", options.constrictors ? "yes" : "no"},
-                       {"friction", text(friction)},
-                       {"time step", text(first_step)},
-                       {"share of the stable step", options.time_step > 0 ? "none" : text(options.step_share)},
-                       {"penalty", text(penalty)}};
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files)
-    if (file.extension() == ".csv")
-      settings.emplace_back("content of " + file.filename().string(),
-                            std::to_string(digest(examples::read_file(file))));
-  return settings;
-}
 
 template <class S>
 class Run {

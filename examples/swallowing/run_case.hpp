@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cases.hpp"
 #include "options.hpp"
-#include "summary.hpp"
+#include "output/summary.hpp"
+#include "scene/cases.hpp"
 
 namespace swallowing {
 

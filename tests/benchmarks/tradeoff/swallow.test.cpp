@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "../../../examples/swallowing/summary.hpp"
+#include "../../../examples/swallowing/output/summary.hpp"
 #include "scenes.hpp"
 
 namespace {

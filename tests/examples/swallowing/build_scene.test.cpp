@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "build_scene.hpp"
+#include "scene/build_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "motion.hpp"
+#include "scene/motion.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frames.hpp"
+#include "output/frames.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "measure.hpp"
+#include "output/measure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "pictures.hpp"
+#include "output/pictures.hpp"
 
 #include <cairo.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "comparison.hpp"
 #include "folder.hpp"
+#include "output/comparison.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "series.hpp"
+#include "output/series.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step_clock.hpp"
+#include "simulation/step_clock.hpp"
 
 #include <gtest/gtest.h>
 

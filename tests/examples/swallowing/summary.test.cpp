@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "summary.hpp"
+#include "output/summary.hpp"
 
 #include <gtest/gtest.h>
 

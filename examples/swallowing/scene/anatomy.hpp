@@ -11,8 +11,8 @@
 #include <numbers>
 #include <vector>
 
-#include "organs.hpp"
-#include "rows.hpp"
+#include "scene/organs.hpp"
+#include "scene/rows.hpp"
 
 /// The organs of the swallow as implicit shapes.
 ///

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene.hpp"
+#include "scene/scene.hpp"
 
 namespace swallowing {
 
@@ -234,8 +234,8 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
   const Anatomy anatomy;
   const hmps::Box<double, 3> box{1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
   // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other. A plane
-  // of particles along the posterior wall, which then is no staircase; z has no such surface and follows x. At 1.8 mm the
-  // fold hangs on this place: see docs/swallowing.md.
+  // of particles along the posterior wall, which then is no staircase; z has no such surface and follows x. At 1.8 mm
+  // the fold hangs on this place: see docs/swallowing.md.
   const double plane = 1e-3 * Pharynx::posterior_wall + (0.5 + settings.lattice_shift) * l0;
   const Point origin(plane, l0 / 2, plane);
 

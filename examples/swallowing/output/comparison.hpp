@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "cases.hpp"
-#include "series.hpp"
-#include "summary.hpp"
+#include "output/series.hpp"
+#include "output/summary.hpp"
+#include "scene/cases.hpp"
 
 namespace swallowing {
 

@@ -22,10 +22,10 @@
 #include "hmps/terms/record.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
-#include "materials.hpp"
-#include "motion.hpp"
-#include "scene.hpp"
-#include "step_clock.hpp"
+#include "scene/materials.hpp"
+#include "scene/motion.hpp"
+#include "scene/scene.hpp"
+#include "simulation/step_clock.hpp"
 
 namespace swallowing {
 

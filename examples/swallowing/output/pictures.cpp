@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "pictures.hpp"
+#include "output/pictures.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
 
-#include "../common/canvas.hpp"
-#include "checkpoint.hpp"
+#include "../../common/canvas.hpp"
+#include "output/checkpoint.hpp"
 
 namespace swallowing {
 

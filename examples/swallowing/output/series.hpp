@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "../common/csv_writer.hpp"
+#include "../../common/csv_writer.hpp"
 
 namespace swallowing {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "anatomy.hpp"
-#include "cases.hpp"
+#include "scene/anatomy.hpp"
+#include "scene/cases.hpp"
 
 namespace swallowing {
 

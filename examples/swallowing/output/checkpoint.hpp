@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "../common/files.hpp"
+#include "../../common/files.hpp"
 
 namespace swallowing {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "comparison.hpp"
+#include "output/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "../common/canvas.hpp"
+#include "../../common/canvas.hpp"
 
 namespace swallowing {
 

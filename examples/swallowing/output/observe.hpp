@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "frames.hpp"
-#include "measure.hpp"
-#include "pictures.hpp"
-#include "scene.hpp"
-#include "series.hpp"
-#include "simulation.hpp"
+#include "output/frames.hpp"
+#include "output/measure.hpp"
+#include "output/pictures.hpp"
+#include "output/series.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
 
 /// What is looked at while the swallow runs: samples for the series, frames, pictures.
 namespace swallowing {

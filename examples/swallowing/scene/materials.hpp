@@ -4,7 +4,7 @@
 #include <hmps/laws/mooney_rivlin.hpp>
 #include <vector>
 
-#include "organs.hpp"
+#include "scene/organs.hpp"
 
 namespace swallowing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "checkpoint.hpp"
+#include "output/checkpoint.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../common/vtu.hpp"
+#include "../../common/vtu.hpp"
 
 namespace swallowing {
 

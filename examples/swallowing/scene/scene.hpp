@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "anatomy.hpp"
-#include "cases.hpp"
-#include "motion.hpp"
-#include "organs.hpp"
-#include "regions.hpp"
+#include "scene/anatomy.hpp"
+#include "scene/cases.hpp"
+#include "scene/motion.hpp"
+#include "scene/organs.hpp"
+#include "scene/regions.hpp"
 
 namespace swallowing {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "summary.hpp"
+#include "output/summary.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "../common/files.hpp"
+#include "../../common/files.hpp"
 
 namespace swallowing {
 

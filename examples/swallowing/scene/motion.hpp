@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "regions.hpp"
-#include "rows.hpp"
+#include "scene/regions.hpp"
+#include "scene/rows.hpp"
 
 /// The motion model of sections 3.2 to 3.6 of the paper, from the CSV files of a data folder.
 namespace swallowing {
