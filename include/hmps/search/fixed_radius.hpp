@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <nanoflann.hpp>
@@ -68,6 +69,26 @@ class WithinRadius {
   std::vector<Index>& found_;
 };
 
+/// Counts what lies within a closed ball, keeping nothing.
+template <class S>
+class CountWithin {
+ public:
+  explicit CountWithin(S squared_radius) : within_(squared_radius, none_), squared_radius_(squared_radius) {}
+  [[nodiscard]] bool addPoint(S squared_distance, Index) {
+    count_ += squared_distance <= squared_radius_ ? 1 : 0;
+    return true;
+  }
+  [[nodiscard]] S worstDist() const { return within_.worstDist(); }
+  [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+ private:
+  std::vector<Index> none_;
+  WithinRadius<S> within_;
+  S squared_radius_;
+  std::size_t count_ = 0;
+};
+
 }  // namespace detail
 
 /// Fixed-radius search through a k-d tree (nanoflann) over the user's own positions, which must
@@ -94,6 +115,26 @@ class FixedRadiusSearch {
     std::sort(found.begin(), found.end());
   }
 
+  /// How many particles lie within `radius` (m) of `centre`; takes no memory, however many they are.
+  [[nodiscard]] std::size_t count(const Vector<Scalar, D>& centre, Scalar radius) const {
+    detail::CountWithin<Scalar> within(radius * radius);
+    if (points_.points.size() > 0) tree_.findNeighbors(within, centre.data(), {});
+    return within.size();
+  }
+
+  /// Distance (m) from `particle` to the nearest other one; infinite if there is none.
+  [[nodiscard]] Scalar nearest(std::size_t particle) const {
+    if (points_.points.size() < 2) return std::numeric_limits<Scalar>::infinity();
+    Index index[2];
+    Scalar squared[2];
+    nanoflann::KNNResultSet<Scalar, Index> two(2);  // of which one is the particle itself
+    two.init(index, squared);
+    tree_.findNeighbors(two, points_.points[particle].eval().data(), {});
+    return std::sqrt(squared[1]);
+  }
+
+  [[nodiscard]] const VectorView<T, D>& points() const { return points_.points; }
+
  private:
   static const Points& checked(const Points& set) {
     require_finite(set.points, "the position");
@@ -103,16 +144,16 @@ class FixedRadiusSearch {
   Tree tree_;
 };
 
-/// All neighbours within `radius` (m, closed ball) of every particle of `points`. The lists are
-/// symmetric: distances are measured once per pair, from the lower index. Throws `InputError` for
-/// a radius that is not positive, a position that is not finite and for coincident particles.
+/// All neighbours within `radius` (m, closed ball) of every particle that `search` is over. The lists
+/// are symmetric: distances are measured once per pair, from the lower index. Throws `InputError` for
+/// a radius that is not positive and for coincident particles.
 template <class T, int D, Executor E = Serial>
-[[nodiscard]] NeighbourList find_neighbours(const VectorView<T, D>& points, typename VectorView<T, D>::Scalar radius,
-                                            const E& execute = {}) {
+[[nodiscard]] NeighbourList find_neighbours(const FixedRadiusSearch<T, D>& search,
+                                            typename VectorView<T, D>::Scalar radius, const E& execute = {}) {
   using Scalar = typename VectorView<T, D>::Scalar;
   require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
           "; it must be a positive number of metres");
-  const FixedRadiusSearch<T, D> search(points);
+  const VectorView<T, D>& points = search.points();
   const std::size_t n = points.size();
   std::vector<std::vector<Index>> above(n);
   execute(n, [&](std::size_t i) {
@@ -138,6 +179,16 @@ template <class T, int D, Executor E = Serial>
   for (std::size_t i = 0; i < n; ++i)
     for (Index j : above[i]) list.neighbour[next[i]++] = j;
   return list;
+}
+
+/// The same of every particle of `points`. Throws `InputError` also for a position that is not finite.
+template <class T, int D, Executor E = Serial>
+[[nodiscard]] NeighbourList find_neighbours(const VectorView<T, D>& points, typename VectorView<T, D>::Scalar radius,
+                                            const E& execute = {}) {
+  using Scalar = typename VectorView<T, D>::Scalar;
+  require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
+          "; it must be a positive number of metres");
+  return find_neighbours(FixedRadiusSearch<T, D>(points), radius, execute);
 }
 
 }  // namespace hmps

@@ -68,6 +68,15 @@ TYPED_TEST(FixedRadius, FindsWhatBruteForceFinds) {
     }
   }
   EXPECT_GT(total, 10 * points.size()) << "the test looks at too few neighbours";
+
+  const hmps::FixedRadiusSearch search(hmps::vectors(points));
+  for (std::size_t i = 0; i < points.size(); i += 7) {
+    EXPECT_EQ(search.count(points[i], radius), list[i].size() + 1);
+    T nearest = std::numeric_limits<T>::infinity();
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != i) nearest = std::min(nearest, (points[j] - points[i]).norm());
+    EXPECT_NEAR(search.nearest(i), nearest, slack * nearest) << i;
+  }
 }
 
 // Distances of whole numbers are exact in both scalars: 3-4-5 and the radius itself are in the ball.
