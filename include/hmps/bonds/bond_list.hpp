@@ -5,22 +5,30 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/cloud_order.hpp"
+#include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/lanes/places.hpp"
 #include "hmps/search/fixed_radius.hpp"
 
 namespace hmps {
 
-/// The bonds of any cloud of particles in its reference configuration: r0, w0 (\paper{8}) and A^-1
-/// (\paper{12}), a list for each particle. `K` is the scalar type in which forces are evaluated,
-/// whatever that of the user's state. Satisfies the `Bonds` concept, as `LatticeBonds` does, which
-/// takes a tenth of the memory where particles lie on a lattice.
+/// The bonds of any cloud of particles in its reference configuration: w0 (\paper{8}) and A^-1 (\paper{12}), r0 being
+/// computed when it is needed. `K` is the scalar type in which forces are evaluated, whatever that of the user's state.
+///
+/// Particles may come in any order: inside, they lie in rods (`detail::CloudOrder`), in which the neighbours of those
+/// that follow each other follow each other as well, or nearly so. A row of bonds is a run of such neighbours for each
+/// half of the lanes of a block, with a weight for each lane, zero where the particle is not bonded.
+///
+/// Satisfies the `Bonds` concept, as `LatticeBonds` does, which takes less memory and time where particles lie on a
+/// lattice.
 template <class K, int D>
 class BondList : public Blocks<K, D> {
   using Base = Blocks<K, D>;
@@ -28,112 +36,213 @@ class BondList : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = SlotRecords<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
+  using Slots = SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
 
   /// Bonds all pairs of `reference` (m) no further apart than the effective radius for which
   /// `bonded(i, j)` holds, which must not depend on the order of i and j. Throws `InputError` for
-  /// coincident particles, positions that are not finite and neighbourhoods that do not span space.
+  /// coincident particles, positions that are not finite, neighbourhoods that do not span space, and a
+  /// spacing that cannot be that of the cloud: in another unit, or else far too large or too small.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
   explicit BondList(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
                     Weight&& weight = {})
-      : Base(reference, natural_order(reference.size())) {
-    detail::validate(settings);
+      : Base(reference, checked_order(reference, settings)) {
     const double radius = settings.spacing * settings.radius_ratio;
     using S = typename VectorView<T, D>::Scalar;
     // Rounding in the user's scalar must not decide whether a lattice neighbour is one.
     const auto reach = static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())));
-    NeighbourList list = find_neighbours(reference, reach);
-    first_row_.push_back(0);
+    const FixedRadiusSearch<T, D> search(reference);
+    detail::require_plausible_spacing(search, settings, reach);
+    const NeighbourList list = find_neighbours(search, reach);
+    places_ = detail::Places<K, D>(*this, static_cast<double>(reach));
+    groups_.reserve(this->block_count() + 1);
+    groups_.push_back({});
     ShapeTensor<D> fullest;
+    std::array<std::vector<Bond>, 2> halves;
     for (std::size_t block = 0; block < this->block_count(); ++block) {
-      const std::size_t start = rows_.size();
+      for (auto& half : halves) half.clear();
       for (std::size_t l = 0; l < width; ++l) {
-        const std::size_t i = block * width + l;
-        if (i >= this->size()) break;
+        const std::size_t slot = block * width + l;
+        const Index i = this->particle(slot);
+        if (i == Base::none) break;
         ShapeTensor<D> shape;
-        std::size_t row = start;
-        for (Index j : list[i]) {
-          if (!bonded(i, static_cast<std::size_t>(j))) continue;
+        for (const Index j : list[i]) {
+          if (!bonded(std::size_t{i}, std::size_t{j})) continue;
           const Vector<double, D> r0 = this->reference(j) - this->reference(i);
           const double w = weight(std::min(r0.norm(), radius), radius);
           if (!(w > 0)) continue;
-          if (row == rows_.size()) rows_.push_back(Row(block * width));
-          for (int c = 0; c < D; ++c) rows_[row].r0[c][l] = static_cast<K>(r0[c]);
-          rows_[row].w[l] = static_cast<K>(w);
-          rows_[row].neighbour[l] = j;
-          ++row;
+          halves[l / half_width].push_back({first_of(this->slot(j), l), static_cast<std::uint32_t>(l), K(w)});
           shape.add(r0, w);
         }
         this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
         if (shape.weight > fullest.weight) fullest = shape;
       }
-      first_row_.push_back(rows_.size());
+      add_rows(halves);
     }
     if (this->size() > 0) this->keep_standard(fullest.weight, fullest.A.trace() / fullest.weight);
+    weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // nothing is asked for beyond the end
+    weights_.shrink_to_fit();
+    starts_.shrink_to_fit();
   }
 
   /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
   /// to `i` (m) and weight.
   template <class Visit>
   void for_each_bond(std::size_t i, Visit&& visit) const {
-    const std::size_t l = i % width;
-    for (std::size_t row = first_row_[i / width]; row < first_row_[i / width + 1]; ++row) {
-      const Row& bond = rows_[row];
-      if (!(bond.w[l] > 0)) continue;
+    const std::size_t own = this->slot(i), block = own / width, l = own % width;
+    const std::int32_t* start = starts_.data() + groups_[block].start;
+    for (std::size_t row = groups_[block].row; row < groups_[block + 1].row; ++row) {
+      const bool split = row >= groups_[block].split;
+      const std::int32_t first = start[split && l >= half_width ? 1 : 0];
+      start += split ? 2 : 1;
+      const K w = weights_[row].lane[l];
+      if (!(w > K(0))) continue;
+      const auto slot = static_cast<std::size_t>(first + static_cast<std::int32_t>(l));
       Vector<K, D> r0;
-      for (int c = 0; c < D; ++c) r0[c] = bond.r0[c][l];
-      visit(bond.neighbour[l], r0, bond.w[l]);
+      for (int c = 0; c < D; ++c) {
+        const K* const place = places_.slots(*this, c);
+        r0[c] = places_.offset(place[slot], place[own]);
+      }
+      visit(this->particle(slot), r0, w);
     }
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    return Base::bytes() + rows_.size() * sizeof(Row) + first_row_.size() * sizeof(std::size_t);
+    return Base::bytes() + places_.bytes() + weights_.size() * sizeof(Lanes<K>) +
+           starts_.size() * sizeof(std::int32_t) + groups_.size() * sizeof(Group);
   }
 
-  /// One bond of every lane of a block, as the sweeps see it.
-  struct Row {
-    alignas(64) K r0[D][width]{};
-    alignas(64) K w[width]{};
-    Index neighbour[width];
+  /// The slot from which on the last of the rows of `block` without a split reads.
+  [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
+    const Group& group = groups_[block];
+    if (group.split == group.row) return block * width;
+    return static_cast<std::size_t>(std::max(starts_[group.start + group.split - group.row - 1], 0));
+  }
 
-    /// No bond in any lane yet: weight zero towards the particle itself.
-    explicit Row(std::size_t first_slot) {
-      for (std::size_t l = 0; l < width; ++l) neighbour[l] = static_cast<Index>(first_slot + l);
+  /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot `first + l`, of those of
+  /// the second half of a row that is split slot `second + l`.
+  template <bool split>
+  class Row {
+   public:
+    HMPS_INLINE Row(const BondList& bonds, const Lanes<K>* own, const Lanes<K>& weights, const std::int32_t* start)
+        : weights_(weights), first_(start[0]), second_(start[split ? 1 : 0]) {
+      for (int c = 0; c < D; ++c) {
+        const K* const places = bonds.places_.slots(bonds, c);
+        if constexpr (split)
+          r0_[c] = bonds.places_.offset(detail::load_halves(places + first_, places + second_), own[c]);
+        else
+          r0_[c] = bonds.places_.offset(load(places + first_), own[c]);
+      }
     }
     template <std::size_t N>
-    [[nodiscard]] HMPS_INLINE std::array<Lanes<K>, N> gather(const SlotRecords<K, N>& slots) const {
-      return slots.gather(neighbour);
+    [[nodiscard]] HMPS_INLINE auto gather(const SlotArrays<K, N>& slots) const {
+      if constexpr (split)
+        return slots.run(first_, second_);
+      else
+        return slots.run(first_);
     }
     static constexpr bool skips = false;
     [[nodiscard]] HMPS_INLINE static constexpr bool along(int) { return true; }
-    [[nodiscard]] HMPS_INLINE Lanes<K> offset(int c) const { return load(r0[c]); }
-    [[nodiscard]] HMPS_INLINE Lanes<K> weight() const { return load(w); }
-    HMPS_INLINE void prefetch() const {
-      for (std::size_t k = 0; k < sizeof(Row); k += detail::lanes_bytes)
-        detail::prefetch(reinterpret_cast<const char*>(this) + k);
-    }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& offset(int c) const { return r0_[c]; }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return weights_; }
+
+   private:
+    const Lanes<K>& weights_;
+    std::ptrdiff_t first_, second_;
+    Lanes<K> r0_[D];
   };
 
-  /// Calls `visit(row)` for each row of bonds of `block`.
+  /// Calls `visit(row)` for each row of bonds of `block`: those that are not split, then the others.
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
-    for (std::size_t row = first_row_[block]; row < first_row_[block + 1]; ++row) {
-      rows_[std::min(row + ahead, rows_.size() - 1)].prefetch();
-      visit(rows_[row]);
+    Lanes<K> own[D];
+    for (int c = 0; c < D; ++c) own[c] = load(places_.slots(*this, c) + block * width);
+    const Group &group = groups_[block], &next = groups_[block + 1];
+    const Lanes<K>* weights = weights_.data() + group.row;
+    const Lanes<K>* const split = weights_.data() + group.split;
+    const Lanes<K>* const end = weights_.data() + next.row;
+    const std::int32_t* start = starts_.data() + group.start;
+    for (; weights != split; ++weights, ++start) {
+      detail::prefetch(weights + ahead);
+      visit(Row<false>(*this, own, *weights, start));
+    }
+    for (; weights != end; ++weights, start += 2) {
+      detail::prefetch(weights + ahead);
+      visit(Row<true>(*this, own, *weights, start));
     }
   }
 
  private:
-  [[nodiscard]] static std::vector<Index> natural_order(std::size_t size) {
-    std::vector<Index> order(size);
-    std::iota(order.begin(), order.end(), Index{0});
-    return order;
+  static constexpr std::size_t half_width = width / 2;
+  /// A bond of one lane: its neighbour is slot `first + lane`.
+  struct Bond {
+    std::int32_t first;
+    std::uint32_t lane;
+    K w;
+  };
+  /// Where the rows of a block begin, where those that are split do, and where in `starts_` their runs do.
+  struct Group {
+    std::uint32_t row = 0, split = 0, start = 0;
+  };
+
+  template <class T>
+  [[nodiscard]] static std::vector<Index> checked_order(const VectorView<T, D>& reference,
+                                                        const BondSettings& settings) {
+    detail::validate(settings);
+    require_finite(reference, "the reference position");
+    return detail::CloudOrder<D>(reference, settings.spacing).order;
+  }
+  [[nodiscard]] static std::int32_t first_of(std::size_t neighbour, std::size_t lane) {
+    return static_cast<std::int32_t>(neighbour) - static_cast<std::int32_t>(lane);
   }
 
-  /// How many rows before it is visited a row is asked for: without that, half of the time is spent waiting for them.
-  static constexpr std::size_t ahead = 6;
-  std::vector<Row> rows_;
-  std::vector<std::size_t> first_row_;
+  /// Adds the rows of the next block, from the bonds of both halves of its lanes: a row for each run that both have,
+  /// then one for each two runs that only one of them has.
+  void add_rows(std::array<std::vector<Bond>, 2>& halves) {
+    std::array<std::vector<std::size_t>, 2> alone;  // where in `halves` a run begins
+    const auto run = [&](std::size_t h, std::size_t k) {
+      if (k >= halves[h].size()) return std::numeric_limits<std::int32_t>::max();
+      return halves[h][k].first;
+    };
+    /// Puts the weights of the run at `k` of a half into the row; returns where the next run begins.
+    const auto fill = [&](std::size_t h, std::size_t k, Lanes<K>& row) {
+      const std::int32_t first = run(h, k);
+      for (; run(h, k) == first && k < halves[h].size(); ++k) row.lane[halves[h][k].lane] = halves[h][k].w;
+      return k;
+    };
+    for (auto& half : halves)
+      std::sort(half.begin(), half.end(), [](const Bond& a, const Bond& b) { return a.first < b.first; });
+    Lanes<K> skipped;
+    for (std::array<std::size_t, 2> k{0, 0}; k[0] < halves[0].size() || k[1] < halves[1].size();) {
+      const std::int32_t first = run(0, k[0]), second = run(1, k[1]);
+      if (first == second) {
+        starts_.push_back(first);
+        Lanes<K>& row = weights_.emplace_back(K(0));
+        for (std::size_t h = 0; h < 2; ++h) k[h] = fill(h, k[h], row);
+      } else {
+        const std::size_t h = first < second ? 0 : 1;
+        alone[h].push_back(k[h]);
+        k[h] = fill(h, k[h], skipped);
+      }
+    }
+    groups_.back().split = static_cast<std::uint32_t>(weights_.size());
+    for (std::size_t k = 0; k < std::max(alone[0].size(), alone[1].size()); ++k) {
+      Lanes<K>& row = weights_.emplace_back(K(0));
+      for (std::size_t h = 0; h < 2; ++h) {
+        // A half without a run reads along with the other.
+        const std::size_t of = k < alone[h].size() ? h : 1 - h;
+        starts_.push_back(run(of, alone[of][k]));
+        if (of == h) fill(h, alone[h][k], row);
+      }
+    }
+    groups_.push_back({static_cast<std::uint32_t>(weights_.size()), 0, static_cast<std::uint32_t>(starts_.size())});
+  }
+
+  /// How many rows before they are visited weights are asked for: without that, the sweeps wait for them.
+  static constexpr std::size_t ahead = 12;
+  detail::Places<K, D> places_;
+  std::vector<Lanes<K>> weights_;     ///< Of each row.
+  std::vector<std::int32_t> starts_;  ///< From which slot on the runs of a row read, one or, if it is split, two.
+  std::vector<Group> groups_;         ///< Of each block, and one behind the last.
 };
 
 }  // namespace hmps

@@ -84,7 +84,7 @@ class InternalForce {
 
   /// Writes the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s)
   /// into `f`. Throws `InputError` for views of the wrong size; does not look at values: what is not
-  /// finite reaches the neighbours and, on a lattice, others of their blocks.
+  /// finite reaches the neighbours and others of their blocks.
   template <class X, class V, class F, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                   const E& execute = {}) {

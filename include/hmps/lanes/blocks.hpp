@@ -39,7 +39,7 @@ class Blocks {
 
   /// Component `c` of the reference position of `particle`, in m.
   [[nodiscard]] double reference(std::size_t particle, int c) const {
-    return reference_[static_cast<std::size_t>(c)][slot_of_[particle]];
+    return reference_(static_cast<std::size_t>(c), slot_of_[particle]);
   }
   /// The reference position of `particle`, in m.
   [[nodiscard]] Vector<double, D> reference(std::size_t particle) const {
@@ -66,10 +66,8 @@ class Blocks {
 
   /// Bytes that the reference configuration takes, without the bonds themselves.
   [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum =
-        (particle_of_.size() + slot_of_.size() + shape_block_.size()) * sizeof(Index) + consecutive_.size();
-    for (const auto& component : reference_) sum += component.size() * sizeof(double);
-    return sum + shape_.bytes();
+    return (particle_of_.size() + slot_of_.size() + shape_block_.size()) * sizeof(Index) + consecutive_.size() +
+           reference_.bytes() + shape_.bytes();
   }
 
   // What follows is read by the sweeps, lane by lane.
@@ -94,21 +92,21 @@ class Blocks {
   /// Where the sweeps read farthest ahead for `block`, if the order of the slots tells; its own slots otherwise.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const { return block * width; }
   [[nodiscard]] HMPS_INLINE const double* reference_slots(int c) const {
-    return reference_[static_cast<std::size_t>(c)].data();
+    return &reference_(static_cast<std::size_t>(c), 0);
   }
 
  protected:
   /// Slots in the order of `order`, which holds every particle once.
   template <class T>
   Blocks(const VectorView<T, D>& reference, const std::vector<Index>& order)
-      : particle_of_((order.size() + width - 1) / width * width, none), slot_of_(order.size()) {
+      : particle_of_((order.size() + width - 1) / width * width, none),
+        slot_of_(order.size()),
+        reference_(particle_of_.size()) {
     std::copy(order.begin(), order.end(), particle_of_.begin());
     for (std::size_t s = 0; s < order.size(); ++s) slot_of_[order[s]] = static_cast<Index>(s);
-    for (int c = 0; c < D; ++c) {
-      auto& component = reference_[static_cast<std::size_t>(c)];
-      component.assign(slot_count(), 0.0);
-      for (std::size_t s = 0; s < order.size(); ++s) component[s] = static_cast<double>(reference(order[s], c));
-    }
+    for (int c = 0; c < D; ++c)
+      for (std::size_t s = 0; s < order.size(); ++s)
+        reference_(static_cast<std::size_t>(c), s) = static_cast<double>(reference(order[s], c));
     consecutive_.resize(block_count());
     for (std::size_t b = 0; b < block_count(); ++b) {
       bool run = true;
@@ -177,7 +175,7 @@ class Blocks {
   std::vector<Index> particle_of_;
   std::vector<Index> slot_of_;
   std::vector<std::uint8_t> consecutive_;
-  std::array<std::vector<double>, D> reference_;
+  SlotArrays<double, D> reference_;
   Shapes shape_;
   std::vector<Index> shape_block_;  ///< Where in shape_ the lanes of each block are.
   double standard_density_ = 0;

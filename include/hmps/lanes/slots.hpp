@@ -1,18 +1,56 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/records.hpp"
 
 namespace hmps {
 
-/// `N` numbers per slot in the scalar type of the kernels, an array for each component: for bonds whose neighbours
-/// follow each other, which are read a run of lanes at a time. A run may hang over either end of an array by as many
+namespace detail {
+
+#if defined(__GNUC__) || defined(__clang__)
+/// Lanes of one register, a half of which lies at `first` and the other at `second`.
+template <class T, int... k>
+HMPS_INLINE void join_halves(T* target, const T* first, const T* second, std::integer_sequence<int, k...>) {
+  typename Register<T, lanes_bytes / 2>::Vector a, b;
+  __builtin_memcpy(&a, first, sizeof(a));
+  __builtin_memcpy(&b, second, sizeof(b));
+  const auto both = __builtin_shufflevector(a, b, k...);
+  __builtin_memcpy(target, &both, sizeof(both));
+}
+#endif
+
+/// The first half of the lanes that lie from `first` on and the second half of those from `second` on.
+template <class T>
+[[nodiscard]] HMPS_INLINE Lanes<T> load_halves(const T* first, const T* second) {
+  constexpr int width = Lanes<T>::width;
+  Lanes<T> result;
+#if defined(__GNUC__) || defined(__clang__)
+  using Vector = typename Register<T>::Vector;
+  if constexpr (Register<T>::width == width) {  // put together in the register, not in memory
+    join_halves(result.lane, first, second + width / 2, std::make_integer_sequence<int, width>{});
+  } else {
+#pragma GCC unroll 4
+    for (int l = 0; l < width; l += Register<T>::width) {
+      Vector x;
+      __builtin_memcpy(&x, (l < width / 2 ? first : second) + l, sizeof(x));
+      __builtin_memcpy(result.lane + l, &x, sizeof(x));
+    }
+  }
+#else
+  for (int l = 0; l < width; ++l) result.lane[l] = (l < width / 2 ? first : second)[l];
+#endif
+  return result;
+}
+
+}  // namespace detail
+
+/// `N` numbers per slot in the scalar type of the kernels, an array for each component: bonds read those of neighbours
+/// that follow each other, a run of lanes at a time. A run may hang over either end of an array by as many
 /// slots as there are lanes, so that it needs no test.
 template <class K, std::size_t N>
 class SlotArrays {
@@ -44,6 +82,20 @@ class SlotArrays {
   };
   [[nodiscard]] HMPS_INLINE Run run(std::ptrdiff_t first) const { return {*this, first}; }
 
+  /// A run for each half of the lanes: the first half of that from `first` on, the second half of that from `second`
+  /// on.
+  struct SplitRun {
+    const SlotArrays& arrays;
+    std::ptrdiff_t first, second;
+    [[nodiscard]] HMPS_INLINE Lanes<K> operator[](std::size_t component) const {
+      const K* const values = &arrays(component, 0);
+      return detail::load_halves(values + first, values + second);
+    }
+  };
+  [[nodiscard]] HMPS_INLINE SplitRun run(std::ptrdiff_t first, std::ptrdiff_t second) const {
+    return {*this, first, second};
+  }
+
   /// Asks for all components of the lanes from `slot` on, which are going to be read soon; nothing happens beyond the
   /// last slot.
   HMPS_INLINE void prefetch(std::size_t slot) const {
@@ -61,48 +113,6 @@ class SlotArrays {
     return (lines | 1) * margin;
   }
   std::size_t pitch_ = 0;
-  std::vector<K> values_;
-};
-
-/// `N` numbers per slot in the scalar type of the kernels, those of a slot side by side: for bonds whose neighbours lie
-/// anywhere, of which each is fetched as a whole and sorted into lanes.
-template <class K, std::size_t N>
-class SlotRecords {
- public:
-  SlotRecords() = default;
-  explicit SlotRecords(std::size_t slots) : values_(slots * pitch, K(0)) {}
-
-  [[nodiscard]] HMPS_INLINE K& operator()(std::size_t component, std::size_t slot) {
-    return values_[slot * pitch + component];
-  }
-  [[nodiscard]] HMPS_INLINE const K& operator()(std::size_t component, std::size_t slot) const {
-    return values_[slot * pitch + component];
-  }
-  /// A component of the block of slots from `slot` on.
-  [[nodiscard]] HMPS_INLINE Lanes<K> lanes(std::size_t component, std::size_t slot) const {
-    return lanes_of<K>([&](int l)
-                           HMPS_INLINE_LAMBDA { return (*this)(component, slot + static_cast<std::size_t>(l)); });
-  }
-  HMPS_INLINE void keep(std::size_t component, std::size_t slot, const Lanes<K>& numbers) {
-    for (int l = 0; l < Lanes<K>::width; ++l) (*this)(component, slot + static_cast<std::size_t>(l)) = numbers.lane[l];
-  }
-
-  /// All components of the slots `slot[0]`, `slot[1]` and so on, one for each lane.
-  [[nodiscard]] HMPS_INLINE std::array<Lanes<K>, N> gather(const Index* slot) const {
-    return gather_records<N>(values_.data(), slot);
-  }
-
-  /// Asks for the block of slots from `slot` on, which is going to be read soon; nothing happens beyond the last.
-  HMPS_INLINE void prefetch(std::size_t slot) const {
-    const std::size_t end = (slot + static_cast<std::size_t>(Lanes<K>::width)) * pitch;
-    if (end > values_.size()) return;
-    for (std::size_t k = slot * pitch; k < end; k += detail::lanes_bytes / sizeof(K))
-      detail::prefetch(values_.data() + k);
-  }
-  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(K); }
-
- private:
-  static constexpr std::size_t pitch = record_pitch<K>(N);
   std::vector<K> values_;
 };
 

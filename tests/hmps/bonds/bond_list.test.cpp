@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "bonds_of_a_scene.hpp"
@@ -28,6 +31,45 @@ TYPED_TEST(BondList, HoldsTheBondsOfEveryKindOfBody) {
     equal_the_plain_ones(bonds, scene);
     sweep_meets_every_bond_once(bonds);
     EXPECT_GT(bonds.bytes(), bonds.size());
+  }
+}
+
+// Both ends of a bond see the same weight, and the same r0 of opposite sign, to the bit: what one pulls the other
+// pushes.
+TYPED_TEST(BondList, SeesEveryBondAlikeFromBothEnds) {
+  using K = typename TypeParam::Scalar;
+  constexpr int D = TypeParam::dimension;
+  for (const auto& scene : scenes::all<D>()) {
+    SCOPED_TRACE(scene.name);
+    const auto bonds = make<TypeParam>(scene);
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<hmps::Vector<K, D>, K>> found;
+    for (std::size_t i = 0; i < bonds.size(); ++i)
+      bonds.for_each_bond(i, [&](std::size_t j, const hmps::Vector<K, D>& r0, K w) {
+        found.emplace(std::pair(i, j), std::pair(r0, w));
+      });
+    for (const auto& [pair, bond] : found) {
+      const auto back = found.find({pair.second, pair.first});
+      ASSERT_NE(back, found.end()) << pair.first << ' ' << pair.second;
+      EXPECT_EQ(back->second.first, -bond.first);
+      EXPECT_EQ(back->second.second, bond.second);
+    }
+  }
+}
+
+// 26 neighbours inside, in whatever order the particles come and with a jitter of a quarter of a spacing in all: with
+// room for the weights, 16 or 8 lanes in a row, and little else.
+TYPED_TEST(BondList, TakesLittleMemory) {
+  constexpr int D = TypeParam::dimension;
+  if constexpr (D == 3) {
+    auto points = scenes::box<3>({30, 24, 20});
+    scenes::Random random(6);
+    for (const double jitter : {0.0, 0.12}) {
+      random.shuffle(points);
+      for (auto& p : points)
+        for (int d = 0; d < D; ++d) p[d] += jitter * scenes::Scene<3>::spacing * random(-1, 1);
+      const TypeParam bonds(hmps::vectors(points), {.spacing = scenes::Scene<3>::spacing});
+      EXPECT_LT(bonds.bytes() / bonds.size(), sizeof(typename TypeParam::Scalar) == 4 ? 250u : 350u) << jitter;
+    }
   }
 }
 

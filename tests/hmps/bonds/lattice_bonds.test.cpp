@@ -70,7 +70,7 @@ TEST(LatticeBonds, ForgiveTheRoundingOfTheUsersPositions) {
   EXPECT_EQ(bonds.size(), points.size());
 }
 
-TEST(LatticeBonds, TakeATenthOfTheMemoryOfAList) {
+TEST(LatticeBonds, TakeAnEighthOfTheMemoryOfAList) {
   const auto points = scenes::box<3>({20, 20, 20});
   const hmps::BondSettings settings{.spacing = scenes::Scene<3>::spacing};
   const hmps::LatticeBonds<float, 3> lattice(hmps::vectors(points), settings);
@@ -78,7 +78,7 @@ TEST(LatticeBonds, TakeATenthOfTheMemoryOfAList) {
   const auto own = [](const auto& bonds) {
     return bonds.bytes() - static_cast<const hmps::Blocks<float, 3>&>(bonds).bytes();
   };
-  EXPECT_LT(10 * own(lattice), own(list));
+  EXPECT_LT(8 * own(lattice), own(list));
 }
 
 // 6 neighbours of a particle lie along one axis, 12 along two, 8 along three.

@@ -29,6 +29,7 @@ TEST(OpenMP, GivesTheSameBitsAsOneThread) {
       EXPECT_TRUE(same_bits::identical(probe(hmps::OpenMP{threads}), expected)) << threads;
   };
   check(same_bits::Probe<hmps::LatticeBonds<float, 3>>());
+  check(same_bits::Probe<hmps::BondList<float, 3>>());
   check(same_bits::Probe<hmps::BondList<double, 3>>());
 }
 

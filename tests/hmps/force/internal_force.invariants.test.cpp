@@ -55,7 +55,7 @@ class Invariants : public testing::Test {
   }
 };
 using Models = testing::Types<hmps::LatticeBonds<float, 3>, hmps::LatticeBonds<double, 2>, hmps::BondList<float, 2>,
-                              hmps::BondList<double, 3>>;
+                              hmps::BondList<float, 3>, hmps::BondList<double, 3>>;
 TYPED_TEST_SUITE(Invariants, Models);
 
 // f_i = -(1 / V) dH/dx_i with H = sum V [W(F_i) + C_i / 2 sum |r - F_i r0|^2 w], by central differences

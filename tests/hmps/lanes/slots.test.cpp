@@ -37,40 +37,34 @@ TYPED_TEST(Slots, ArraysHaveAMarginOfZerosAtBothEnds) {
         const std::size_t expected = inside ? mark(c, static_cast<std::size_t>(first + l)) : 0;
         EXPECT_EQ(arrays.run(first)[c].lane[l], static_cast<TypeParam>(expected)) << c << ' ' << first << ' ' << l;
       }
+  // Halves of two runs.
+  for (std::ptrdiff_t first = -width; first <= slots; first += 5)
+    for (std::ptrdiff_t second = -width; second <= slots; second += 3)
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::ptrdiff_t l = 0; l < width; ++l) {
+          const auto k = static_cast<std::size_t>(l);
+          EXPECT_EQ(arrays.run(first, second)[c].lane[k], arrays.run(l < width / 2 ? first : second)[c].lane[k]);
+        }
   EXPECT_GE(arrays.bytes(), 3 * slots * sizeof(TypeParam));
   EXPECT_EQ((hmps::SlotArrays<TypeParam, 0>(slots).bytes()), 0u);
 }
 
-/// What was put in one by one comes out a block at a time and for neighbours anywhere, and the other way round.
-template <class TypeParam, std::size_t N>
-void records_hand_out_what_was_kept() {
+// What was put in one by one comes out a block at a time, and the other way round.
+TYPED_TEST(Slots, ArraysHandOutWhatWasKept) {
   constexpr auto width = static_cast<std::size_t>(hmps::Lanes<TypeParam>::width);
   constexpr std::size_t slots = 5 * width;
-  auto records = marked<hmps::SlotRecords<TypeParam, N>>(N, slots);
-  hmps::Index places[width];
-  for (std::size_t l = 0; l < width; ++l) places[l] = static_cast<hmps::Index>((37 * l + 11) % slots);
-  const auto found = records.gather(places);
-  for (std::size_t c = 0; c < N; ++c) {
-    const auto second = records.lanes(c, width);
-    for (std::size_t l = 0; l < width; ++l) {
-      EXPECT_EQ(found[c].lane[l], static_cast<TypeParam>(mark(c, places[l])));
-      EXPECT_EQ(second.lane[l], static_cast<TypeParam>(mark(c, width + l)));
-    }
-    records.keep(c, 2 * width, second);
+  auto arrays = marked<hmps::SlotArrays<TypeParam, 10>>(10, slots);
+  for (std::size_t c = 0; c < 10; ++c) {
+    const auto second = arrays.lanes(c, width);
+    for (std::size_t l = 0; l < width; ++l) EXPECT_EQ(second.lane[l], static_cast<TypeParam>(mark(c, width + l)));
+    arrays.keep(c, 2 * width, second);
   }
-  for (std::size_t c = 0; c < N; ++c)
+  for (std::size_t c = 0; c < 10; ++c)
     for (std::size_t s = 0; s < slots; ++s)
-      EXPECT_EQ(records(c, s), static_cast<TypeParam>(mark(c, s / width == 2 ? s - width : s)));
-  EXPECT_GE(records.bytes(), N * slots * sizeof(TypeParam));
-}
-TYPED_TEST(Slots, RecordsHandOutWhatWasKept) {
-  records_hand_out_what_was_kept<TypeParam, 1>();
-  records_hand_out_what_was_kept<TypeParam, 3>();
-  records_hand_out_what_was_kept<TypeParam, 10>();
+      EXPECT_EQ(arrays(c, s), static_cast<TypeParam>(mark(c, s / width == 2 ? s - width : s)));
 }
 
 TYPED_TEST(Slots, NumbersThatNoForceNeedsTakeNoMemory) {
-  EXPECT_EQ((hmps::SlotRecords<TypeParam, 0>(40).bytes()), 0u);
   EXPECT_EQ((hmps::SlotArrays<TypeParam, 0>(40).bytes()), 0u);
 }
 

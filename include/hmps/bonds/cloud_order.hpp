@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps::detail {
+
+/// An order of any cloud of particles in which neighbours follow each other where they can: rods of about one spacing
+/// squared, one beside the other in layers, each particle of a rod behind the one before it. On a lattice, also one
+/// that is jittered or has gaps, the rods are its rows. The order follows from the positions; the order in which they
+/// are given counts only where the first axis would do as well as another, or two positions are the same.
+template <int D>
+struct CloudOrder {
+  std::vector<Index> order;  ///< The particles, one after the other.
+
+  /// Of particles at `reference` (m, finite), `spacing` (m) apart or so.
+  template <class T>
+  CloudOrder(const VectorView<T, D>& reference, double spacing) : order(reference.size()) {
+    const std::size_t n = reference.size();
+    std::iota(order.begin(), order.end(), Index{0});
+    if (n == 0) return;
+    std::array<std::vector<std::int32_t>, D> cell;
+    std::array<std::int32_t, D> extent{};
+    for (int c = 0; c < D; ++c) {
+      std::vector<std::int32_t>& cells = cell[static_cast<std::size_t>(c)];
+      cells.resize(n);
+      const double origin = middle_of_layer(reference, c, spacing);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double place = std::round((static_cast<double>(reference(i, c)) - origin) / spacing);
+        cells[i] = static_cast<std::int32_t>(std::clamp(place, -1e9, 1e9));
+      }
+      const auto [low, high] = std::minmax_element(cells.begin(), cells.end());
+      extent[static_cast<std::size_t>(c)] = *high - *low;
+    }
+    const std::array<int, D> axis = axes(cell, extent);
+    const int along = axis[D - 1];
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+      for (std::size_t d = 0; d + 1 < D; ++d) {
+        const auto& cells = cell[static_cast<std::size_t>(axis[d])];
+        if (cells[a] != cells[b]) return cells[a] < cells[b];
+      }
+      const auto xa = reference(a, along), xb = reference(b, along);
+      return xa != xb ? xa < xb : a < b;
+    });
+  }
+
+ private:
+  /// Where particles lie within a spacing along component `c`, by the mean direction of their places on a circle of
+  /// that length: of a lattice, also a jittered one, the place of a layer.
+  template <class T>
+  [[nodiscard]] static double middle_of_layer(const VectorView<T, D>& reference, int c, double spacing) {
+    const double first = static_cast<double>(reference(0, c)), turn = 2 * std::acos(-1.0) / spacing;
+    double sine = 0, cosine = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      const double angle = turn * (static_cast<double>(reference(i, c)) - first);
+      sine += std::sin(angle);
+      cosine += std::cos(angle);
+    }
+    return first + std::atan2(sine, cosine) / turn;
+  }
+
+  /// Rods along the axis that makes the fewest of them, layers across the longest of the other axes. Where nothing
+  /// else tells one from another, rods lie as most particles follow each other, along the first axis or the last, so
+  /// that the sweeps read the user's arrays as they are.
+  [[nodiscard]] static std::array<int, D> axes(const std::array<std::vector<std::int32_t>, D>& cell,
+                                               const std::array<std::int32_t, D>& extent) {
+    const std::size_t n = cell[0].size();
+    std::array<std::size_t, D> rods{};
+    std::vector<std::int64_t> keys(n);
+    for (std::size_t along = 0; along < D; ++along) {
+      for (std::size_t i = 0; i < n; ++i) {
+        keys[i] = 0;
+        for (std::size_t d = 0; d < D; ++d)
+          if (d != along) keys[i] = keys[i] * (std::int64_t{1} << 31) + cell[d][i];
+      }
+      std::sort(keys.begin(), keys.end());
+      rods[along] = static_cast<std::size_t>(std::unique(keys.begin(), keys.end()) - keys.begin());
+    }
+    std::size_t along = D - 1;
+    for (std::size_t d = D; d-- > 0;)
+      if (rods[d] < rods[along]) along = d;
+    if (rods[0] == rods[along] && first_axis_is_fastest(cell)) along = 0;
+    std::array<int, D> axis;
+    std::iota(axis.begin(), axis.end(), 0);
+    std::swap(axis[along], axis[D - 1]);
+    std::sort(axis.begin(), axis.end() - 1, [&](int a, int b) {
+      const auto ea = extent[static_cast<std::size_t>(a)], eb = extent[static_cast<std::size_t>(b)];
+      return ea != eb ? ea > eb : (along == 0 ? a > b : a < b);
+    });
+    return axis;
+  }
+
+  /// Whether most particles lie beside the one before them along the first axis.
+  [[nodiscard]] static bool first_axis_is_fastest(const std::array<std::vector<std::int32_t>, D>& cell) {
+    std::size_t follow = 0;
+    for (std::size_t i = 1; i < cell[0].size(); ++i) {
+      bool same = cell[0][i] == cell[0][i - 1] + 1;
+      for (std::size_t d = 1; d < D; ++d) same = same && cell[d][i] == cell[d][i - 1];
+      follow += same ? 1 : 0;
+    }
+    return 2 * follow > cell[0].size();
+  }
+};
+
+}  // namespace hmps::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "hmps/bonds/bond_settings.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/search/fixed_radius.hpp"
+
+namespace hmps::detail {
+
+/// Throws `InputError` if `settings` cannot be meant for the cloud that `search` is over: if its particles have more
+/// than four times the neighbours that so large a radius gives at that spacing, or if nine in ten have none. Both are
+/// what metres beside millimetres make; the first would take memory that grows with the square of the particles, so
+/// that 64 particles, evenly spread over the cloud's order, are looked at before all are.
+template <class T, int D>
+void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
+                               typename VectorView<T, D>::Scalar radius) {
+  constexpr std::size_t most_samples = 64;
+  constexpr double ball = D == 3 ? 4.18879 : 3.14159;  // of radius 1: as many particles, of a spacing of 1
+  const double usual = std::max(2.0 * D, ball * std::pow(settings.radius_ratio, D));
+  const std::size_t n = search.points().size(), samples = std::min(n, most_samples);
+  if (n < 2) return;
+  std::size_t sum = 0, alone = 0, most = 0, fullest = 0, lonely = 0;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const std::size_t i = k * n / samples;
+    const std::size_t neighbours = search.count(search.points()[i], radius) - 1;
+    sum += neighbours;
+    if (neighbours > most) {
+      most = neighbours;
+      fullest = i;
+    }
+    if (neighbours == 0 && alone++ == 0) lonely = i;
+  }
+  const auto nearest = [&] {
+    std::vector<double> distance(samples);
+    for (std::size_t k = 0; k < samples; ++k) distance[k] = static_cast<double>(search.nearest(k * n / samples));
+    std::nth_element(distance.begin(), distance.begin() + static_cast<std::ptrdiff_t>(samples / 2), distance.end());
+    return distance[samples / 2];
+  };
+  const double mean = static_cast<double>(sum) / static_cast<double>(samples);
+  if (mean > 4 * usual)
+    throw InputError(message("hmps: particle ", fullest, " has ", most, " neighbours within the effective radius of ",
+                             radius, " m, ", samples, " particles that were looked at have ", std::round(mean),
+                             " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
+                             "; the typical distance to the nearest particle is ", nearest(),
+                             " m: give a spacing of that size, in the unit of the positions"));
+  if (10 * alone >= 9 * samples)
+    throw InputError(message("hmps: particle ", lonely, " has 0 neighbours within the effective radius of ", radius,
+                             " m, and so have ", alone, " of ", samples,
+                             " particles that were looked at; a spacing of ", settings.spacing,
+                             " m looks wrong: the typical distance to the nearest particle is ", nearest(),
+                             " m; give a spacing of that size, in the unit of the positions"));
+}
+
+}  // namespace hmps::detail

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "hmps/core/inline.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/lanes/blocks.hpp"
+#include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/slots.hpp"
+
+namespace hmps::detail {
+
+/// Reference positions from which r0 of a bond is computed when it is needed, to the rounding of `K` and of opposite
+/// sign from both ends, however large the body. In double they are the positions themselves. In float they are whole
+/// numbers of 2^-30 of the radius of bonds, rounded up to a power of two, of which the last 32 bits are kept: their
+/// differences are exact as long as they are shorter than that radius.
+template <class K, int D>
+class Places {
+  static constexpr bool fixed = std::is_same_v<K, float>;
+
+ public:
+  Places() = default;
+  /// The reference positions of `blocks`, for bonds up to `radius` (m).
+  Places(const Blocks<K, D>& blocks, double radius) {
+    if constexpr (fixed) {
+      const double unit = std::ldexp(1.0, std::ilogb(radius) - 29);
+      unit_ = static_cast<K>(unit);
+      positions_ = SlotArrays<K, D>(blocks.slot_count());
+      for (int c = 0; c < D; ++c)
+        for (std::size_t s = 0; s < blocks.slot_count(); ++s) {
+          const double place = std::remainder(std::nearbyint(blocks.reference_slots(c)[s] / unit), 0x1p32);
+          const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(place));
+          std::memcpy(&positions_(static_cast<std::size_t>(c), s), &bits, sizeof(bits));
+        }
+    }
+  }
+
+  /// Component `c` of the positions of the slots from 0 on, as far as the margin of `SlotArrays` reaches.
+  [[nodiscard]] HMPS_INLINE const K* slots(const Blocks<K, D>& blocks, int c) const {
+    if constexpr (fixed)
+      return &positions_(static_cast<std::size_t>(c), 0);
+    else
+      return blocks.reference_slots(c);
+  }
+  /// A component of r0 (m) from what `slots` has for a neighbour and for the particle itself.
+  [[nodiscard]] HMPS_INLINE K offset(K neighbour, K own) const {
+    if constexpr (fixed) {
+      std::uint32_t a, b;
+      std::memcpy(&a, &neighbour, sizeof(a));
+      std::memcpy(&b, &own, sizeof(b));
+      return static_cast<K>(static_cast<std::int32_t>(a - b)) * unit_;
+    } else {
+      return neighbour - own;
+    }
+  }
+  [[nodiscard]] HMPS_INLINE Lanes<K> offset(const Lanes<K>& neighbour, const Lanes<K>& own) const {
+    if constexpr (fixed) {
+      Lanes<K> r0;
+#if defined(__GNUC__) || defined(__clang__)
+      using Vector = typename Register<K>::Vector;
+      using Signed = typename Register<K>::Mask;
+      typedef std::uint32_t Unsigned __attribute__((vector_size(sizeof(Signed))));
+#pragma GCC unroll 4
+      for (int l = 0; l < Lanes<K>::width; l += Register<K>::width) {
+        Unsigned a, b;
+        __builtin_memcpy(&a, neighbour.lane + l, sizeof(a));
+        __builtin_memcpy(&b, own.lane + l, sizeof(b));
+        const Vector x = __builtin_convertvector(reinterpret_cast<Signed>(a - b), Vector) * unit_;
+        __builtin_memcpy(r0.lane + l, &x, sizeof(x));
+      }
+#else
+      for (int l = 0; l < Lanes<K>::width; ++l) r0.lane[l] = offset(neighbour.lane[l], own.lane[l]);
+#endif
+      return r0;
+    } else {
+      return neighbour - own;
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const { return positions_.bytes(); }
+
+ private:
+  SlotArrays<K, fixed ? D : 0> positions_;
+  K unit_ = 0;
+};
+
+}  // namespace hmps::detail
