@@ -3,6 +3,8 @@
 //
 //   step/box/KIND/PARTICLES/THREADS     on the lattice; KIND: float, double, mixed (state in double, kernels in float)
 //   step/list/KIND/PARTICLES/THREADS    the same body with a list of bonds
+//   step/cloud/ORDER/KIND/PARTICLES/THREADS   the same, moved off the lattice by up to a tenth of a spacing and then in
+//                                       the order of the lattice or shuffled, with a list of bonds
 //   step/reference/KIND/PARTICLES       the same with compressed rows and plain Eigen code (reference.hpp)
 //   step/thin/KIND/PARTICLES/THREADS    half a hollow ball, a wall of three particles, in which few
 //                                       neighbours lie in rows
@@ -19,10 +21,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/artificial.hpp"
-#include "hmps/time/symplectic_euler.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
+#include "hmps/time/symplectic_euler.hpp"
 #include "reference.hpp"
 #include "step.hpp"
 
@@ -113,6 +115,15 @@ void add_box(const std::string& name, const Box& box) {
               [box](benchmark::State& run, const auto& execute) { step<Bonds, S>(run, State<S>(box), execute); });
 }
 template <class Bonds, class S>
+void add_cloud() {
+  for (const bool shuffled : {false, true})
+    add_threads(std::string("step/cloud/") + (shuffled ? "shuffled/" : "ordered/") + kind<typename Bonds::Scalar, S>() +
+                    "/" + std::to_string(paper_size.size()),
+                [shuffled](benchmark::State& run, const auto& execute) {
+                  step<Bonds, S>(run, cloud<S>(paper_size, shuffled), execute);
+                });
+}
+template <class Bonds, class S>
 void add_thin() {
   add_threads("step/thin/" + kind<typename Bonds::Scalar, S>() + "/" + std::to_string(dome<S>().size()),
               [](benchmark::State& run, const auto& execute) { step<Bonds, S>(run, dome<S>(), execute); });
@@ -129,6 +140,8 @@ void add_thin() {
   add_thin<hmps::LatticeBonds<double, 3>, double>();
   add_box<hmps::BondList<float, 3>, float>("step/list", paper_size);
   add_box<hmps::BondList<double, 3>, double>("step/list", paper_size);
+  add_cloud<hmps::BondList<float, 3>, float>();
+  add_cloud<hmps::BondList<double, 3>, double>();
   for (const Box& box : {in_cache, paper_size}) {
     const std::string size = std::to_string(box.size());
     benchmark::RegisterBenchmark(("step/reference/float/" + size).c_str(), [box](benchmark::State& run) {
