@@ -31,6 +31,7 @@
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
 #include "hmps/contact/raised_skin.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/inline.hpp"

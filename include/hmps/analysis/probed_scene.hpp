@@ -8,11 +8,12 @@
 #include <functional>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A force that `stable_step` can probe: `force(x, v, f)` with read-only views of positions (m) and
 /// velocities (m/s) that writes or adds force densities (N/m3) to the view `f`, which comes zeroed.
@@ -158,4 +159,4 @@ class ProbedScene {
 
 }  // namespace detail
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

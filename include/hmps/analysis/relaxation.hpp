@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "hmps/analysis/stable_step.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// How `relax` looks for the state of rest.
 struct RelaxationSettings {
@@ -247,4 +248,4 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   return result;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -14,11 +14,12 @@
 #include <vector>
 
 #include "hmps/analysis/probed_scene.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// How `stable_step` looks for the largest stable step.
 struct StableStepSettings {
@@ -262,4 +263,4 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   return result;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

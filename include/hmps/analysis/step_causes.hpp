@@ -12,12 +12,13 @@
 
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/stable_step.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A part of the composed force, under the name by which `step_causes` speaks of it. Refers to the force.
 template <class Force>
@@ -106,4 +107,4 @@ template <class K, int D>
   return text;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -14,11 +14,12 @@
 #include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/places.hpp"
 #include "hmps/search/fixed_radius.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The bonds of any cloud of particles in its reference configuration: w0 (\paper{8}) and A^-1 (\paper{12}), r0 being
 /// computed when it is needed. `K` is the scalar type in which forces are evaluated, whatever that of the user's state.
@@ -245,4 +246,4 @@ class BondList : public Blocks<K, D> {
   std::vector<Group> groups_;         ///< Of each block, and one behind the last.
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

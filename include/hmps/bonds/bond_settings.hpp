@@ -5,9 +5,10 @@
 #include <cstddef>
 
 #include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Bonds every pair: the predicate of a body that is not cut.
 struct EveryBond {
@@ -30,4 +31,4 @@ inline void validate(const BondSettings& settings) {
 }
 }  // namespace detail
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -4,9 +4,10 @@
 #include <concepts>
 #include <cstddef>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/lanes/blocks.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows, of one type or
 /// of several, with `row.gather(slots)` (from `Slots<N>`, what `[c]` gives component c of for the neighbour in each
@@ -19,4 +20,4 @@ concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &
   bonds.for_each_row(std::size_t{0}, [](const auto&) {});
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

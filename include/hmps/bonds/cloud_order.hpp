@@ -9,10 +9,11 @@
 #include <numeric>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// An order of any cloud of particles in which neighbours follow each other where they can: rods of about one spacing
 /// squared, one beside the other in layers, each particle of a rod behind the one before it. On a lattice, also one
@@ -111,4 +112,4 @@ struct CloudOrder {
   }
 };
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -15,9 +15,10 @@
 #include "hmps/bonds/lattice_cells.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/lanes/blocks.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The order of particles on a cubic lattice of `spacing` (m) in which the sweeps over `LatticeBonds`
 /// visit them: particle `order[s]` comes at place s. Arrays of state that are kept in this order are
@@ -233,4 +234,4 @@ class LatticeBonds : public Blocks<K, D> {
   std::vector<std::uint32_t> first_run_;  ///< Of each set of axes of each block.
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

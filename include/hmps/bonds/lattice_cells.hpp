@@ -9,11 +9,12 @@
 #include <numeric>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -88,4 +89,4 @@ struct LatticeCells {
 
 }  // namespace detail
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/search/fixed_radius.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `InputError` if `settings` cannot be meant for the cloud that `search` is over: if its particles have more
 /// than four times the neighbours that so large a radius gives at that spacing, or if nine in ten have none. Both are
@@ -56,4 +57,4 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                              " m; give a spacing of that size, in the unit of the positions"));
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -5,10 +5,11 @@
 #include <Eigen/LU>
 #include <cstddef>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The reference neighbourhood of one particle as \paper{12} sums it, in double precision:
 /// bonds are added one by one.
@@ -51,4 +52,4 @@ struct ShapeTensor {
   }
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace hmps {
+#include "hmps/core/abi.hpp"
+
+namespace hmps::inline HMPS_ABI {
 
 /// Weight of a bond by \paper{8}: w(r) = r_e / r - 1 for 0 < r <= r_e, else 0. Dimensionless.
 /// Any callable `T(T distance, T radius)` that is not negative may stand in its place.
@@ -16,4 +18,4 @@ struct PaperWeight {
 /// metaballs (sections 2.2 and 2.7).
 inline constexpr double paper_radius_ratio = 1.75;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

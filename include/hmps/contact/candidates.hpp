@@ -14,6 +14,7 @@
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
@@ -21,7 +22,7 @@
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/search/grid.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Deformation gradients of undeformed or rigid particles.
 template <class S, int D>
@@ -223,7 +224,7 @@ class Candidates {
   bool built_ = false;
 };
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail
 
 #include "hmps/contact/candidates_build.hpp"
 #include "hmps/contact/candidates_select.hpp"

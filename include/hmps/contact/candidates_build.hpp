@@ -2,8 +2,9 @@
 #pragma once
 
 #include "hmps/contact/candidates.hpp"
+#include "hmps/core/abi.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 template <class S, int D, Metaball Ball>
 std::size_t Candidates<S, D, Ball>::add_organ(const Organ& organ) {
@@ -205,4 +206,4 @@ void Candidates<S, D, Ball>::list_rows_of_particles() {
   each([&](Index i, std::size_t r) { rows_of_[next_[i]++] = static_cast<Index>(r); });
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

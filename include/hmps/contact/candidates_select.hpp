@@ -2,8 +2,9 @@
 #pragma once
 
 #include "hmps/contact/candidates.hpp"
+#include "hmps/core/abi.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 template <class S, int D, Metaball Ball>
 template <class X, class Gradients, class E>
@@ -224,4 +225,4 @@ void Candidates<S, D, Ball>::transpose() {
   }
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -3,8 +3,9 @@
 
 #include "hmps/contact/candidates.hpp"
 #include "hmps/contact/master_surface.hpp"
+#include "hmps/core/abi.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// An upper bound until the next check of |F_i^T n| max |F_j^-1 n| over the masters kept for `row`: the distance R_im,
 /// less half a spacing and over as much, at which its slave touches. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a
@@ -133,4 +134,4 @@ void Candidates<S, D, Ball>::wake(Index particle, S moved_squared) {
   }
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

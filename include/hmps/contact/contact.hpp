@@ -16,6 +16,7 @@
 #include "hmps/contact/organ.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
@@ -25,7 +26,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/quad.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// What a scene says about its contacts.
 struct ContactSettings {
@@ -241,6 +242,6 @@ class MetaballContact {
   std::uint32_t call_ = 1;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI
 
 #include "hmps/contact/contact_evaluate.hpp"

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "hmps/contact/contact.hpp"
+#include "hmps/core/abi.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Makes room for what the present lists name.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
@@ -256,4 +257,4 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
   return report;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "hmps/contact/metaball.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/quad.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The wall that a slave sees, gathered over its master particles j in two passes: `reach` for each
 /// (sum and normal, \paper{28, 30}), then `mean` for each with c > 0 (velocity and strain,
@@ -103,4 +104,4 @@ template <class S>
   return stretch * (centres - S(0.5) * spacing);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

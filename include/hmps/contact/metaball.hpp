@@ -3,7 +3,9 @@
 
 #include <concepts>
 
-namespace hmps {
+#include "hmps/core/abi.hpp"
+
+namespace hmps::inline HMPS_ABI {
 
 /// The function that each particle of a wall spreads around itself. Valid expressions, with
 /// `s = (r / r_e)^2` in `[0, 1]` (the square, so that no root is taken per pair):
@@ -51,4 +53,4 @@ struct SmoothMetaball {
   }
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

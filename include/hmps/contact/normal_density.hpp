@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "hmps/contact/metaball.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The normal density function Z(y), \paper{27}, and its inverse, \paper{29}: how far a slave is from
 /// the outermost layer of a wall, read from the sum of metaballs there.
@@ -149,4 +150,4 @@ class NormalDensity {
   std::vector<Node> table_;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/grid.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A body with a surface that may touch others. Indices are of the user's particles; a particle may
 /// be slave and master (usual), and may belong to several organs.
@@ -68,4 +69,4 @@ template <class T, int D>
   return out;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

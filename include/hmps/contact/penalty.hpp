@@ -4,10 +4,11 @@
 #include <cmath>
 #include <concepts>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The penalty coefficient k in N/m4 (force density per penetration). `ratio` is the paper's choice,
 /// \paper{25}: it makes the wall four times stiffer whenever the step is halved, and with it the
@@ -107,4 +108,4 @@ struct CorrectedFriction {
   }
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

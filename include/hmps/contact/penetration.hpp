@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// r_i in m: how far the deformed slave reaches towards a wall of unit normal `normal`, \paper{37}.
 /// The ellipsoid |F^-1 x| = l0 / 2 has its point with normal -n at x = -(l0/2) F F^T n / |F^T n|, whose
@@ -22,4 +23,4 @@ template <class S>
   return support > distance ? support - distance : S(0);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

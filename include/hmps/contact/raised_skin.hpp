@@ -7,12 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Where contact sees the outermost particles of a body whose surface is cut out of a lattice; beyond the paper.
 ///
@@ -102,4 +103,4 @@ class RaisedSkin {
   std::vector<Vector<S, D>> offset_;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -30,7 +30,7 @@ struct StateError : Error {
   using Error::Error;
 };
 
-namespace detail {
+namespace messages {
 
 /// One part of a message, whatever its type: words, a number, or the numbers of an Eigen vector. Refers to it. The text
 /// is made by functions that are no templates, since a header-only library pays for each place that can throw.
@@ -112,19 +112,19 @@ class MessagePart {
   throw InputError(join(parts));
 }
 
-}  // namespace detail
+}  // namespace messages
 
 /// Joins its arguments into one message; numbers are written with nine digits, which
 /// tell any two floats apart.
 template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
-  return detail::join({detail::MessagePart(parts)...});
+  return messages::join({messages::MessagePart(parts)...});
 }
 
 /// Throws an `InputError` made of `parts` unless `condition` holds.
 template <class... Parts>
 void require(bool condition, const Parts&... parts) {
-  if (!condition) detail::throw_input_error({detail::MessagePart(parts)...});
+  if (!condition) messages::throw_input_error({messages::MessagePart(parts)...});
 }
 
 }  // namespace hmps

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace hmps {
+#include "hmps/core/abi.hpp"
+
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 struct AnyBody {
@@ -51,4 +53,4 @@ template <class T, class Term, class Combine, Executor E = Serial>
   return result;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

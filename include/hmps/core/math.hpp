@@ -4,10 +4,11 @@
 #include <cmath>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 // What the laws and the kernels need of small tensors, in few operations. `T` may be an arithmetic
 // type or a pack of lanes: only + - * / and functions found by argument-dependent lookup are used,
@@ -135,4 +136,4 @@ template <class T, int D>
   return C;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 template <class T>
@@ -50,4 +51,4 @@ void require_positive(const Q& quantity, std::size_t size, const char* name, con
   }
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

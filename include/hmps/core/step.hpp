@@ -4,9 +4,10 @@
 #include <cmath>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `InputError` unless `dt` (s) is a time step.
 inline void require_step(double dt) {
@@ -19,4 +20,4 @@ void kick(T& v, U f, Rho rho, double dt) {
   using Real = std::common_type_t<T, U>;
   v = static_cast<T>(v + static_cast<Real>(dt / static_cast<double>(rho)) * f);
 }
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -9,9 +9,10 @@
 #include <string_view>
 #include <system_error>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// The bytes of the file `path`. Throws `InputError` if it cannot be read.
 [[nodiscard]] inline std::string read_text(const std::string& path) {
@@ -64,4 +65,4 @@ template <class T>
   return error == std::errc() && stop == text.data() + text.size();
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

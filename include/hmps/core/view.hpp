@@ -8,10 +8,11 @@
 #include <span>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// View of `N` scalars per particle in the user's own memory: component `c` of particle `i` lies
 /// `i * stride` bytes behind `base(c)`. One shape for arrays of structs, structs of arrays, Eigen
@@ -307,4 +308,4 @@ void require_finite(const View<T, N>& view, const char* name) {
               view(i, c), "; every component must be a finite number");
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
@@ -22,7 +23,7 @@
 /// in an order that does not depend on the executor. `volume` is that of a particle in the
 /// reference configuration, l0^D on a lattice. Without viscosity, contact and forced displacements
 /// kinetic + strain + artificial energy is what the scheme keeps.
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// One particle, as a callable material sees it in diagnostics: so that the same
 /// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` serves force and energy.
@@ -191,4 +192,4 @@ template <class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Ser
       std::plus<>{}, execute);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

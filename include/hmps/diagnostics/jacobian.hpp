@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <limits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// What counts as volume kept: the interval that the paper reports in section 4.1.
 struct JacobianInterval {
@@ -77,4 +78,4 @@ template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
   return all;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

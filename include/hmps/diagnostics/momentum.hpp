@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
@@ -12,7 +13,7 @@
 /// Momenta of a body, summed in double precision in an order that does not depend on the executor.
 /// Elastic and artificial forces keep both; the viscous force of \paper{21} keeps the linear one, but damps rigid
 /// spin at free surfaces.
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// What turns in `D` dimensions: a vector in three, its component out of the plane in two.
 template <int D>
@@ -68,4 +69,4 @@ template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E 
       [](const Sum& a, const Sum& b) -> Sum { return a + b; }, execute);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

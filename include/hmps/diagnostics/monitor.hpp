@@ -8,12 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// What `find_fault` and `check_state` need beside the state.
 struct StateLimits {
@@ -171,4 +172,4 @@ void check_state(const VectorView<X, D>& x, const VectorView<V, D>& v, const Sta
   if (const auto fault = find_fault(x, v, limits, execute)) throw StateError(fault->message);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

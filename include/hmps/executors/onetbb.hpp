@@ -6,7 +6,9 @@
 
 #include <cstddef>
 
-namespace hmps {
+#include "hmps/core/abi.hpp"
+
+namespace hmps::inline HMPS_ABI {
 
 /// Executor on oneTBB's current task arena; opt-in: link TBB::tbb yourself.
 struct OneTBB {
@@ -20,4 +22,4 @@ struct OneTBB {
   }
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

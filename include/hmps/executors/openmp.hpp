@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <exception>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Executor on OpenMP threads; opt-in: compile and link with OpenMP yourself. An exception thrown
 /// by a body reaches the caller after the loop.
@@ -33,4 +34,4 @@ struct OpenMP {
   }
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "hmps/bonds/bonds.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
@@ -12,7 +13,7 @@
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/staging.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -62,4 +63,4 @@ void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const Matri
   });
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/step.hpp"
@@ -18,7 +19,7 @@
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the
 /// deformation gradient and what follows from it, one for the sum in `Coupling`. A term that is not
@@ -320,4 +321,4 @@ template <Bonds B, class... Terms>
 template <Bonds B, class... Terms>
 void internal_force(const B&& bonds, Terms... terms) = delete;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

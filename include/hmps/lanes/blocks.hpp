@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/slots.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The particles in the order in which the sweeps visit them: `block()` of them at a time, each in
 /// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
@@ -182,4 +183,4 @@ class Blocks {
   double standard_lambda_ = 0;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

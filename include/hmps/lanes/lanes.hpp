@@ -9,9 +9,10 @@
 #include <limits>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -338,7 +339,7 @@ template <class T>
 #undef HMPS_EACH_REGISTER
 #undef HMPS_REGISTER_BYTES
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI
 
 /// Lanes are numbers to Eigen.
 template <class T>

@@ -7,13 +7,14 @@
 #include <cstring>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/slots.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Reference positions from which r0 of a bond is computed when it is needed, to the rounding of `K` and of opposite
 /// sign from both ends, however large the body. In double they are the positions themselves. In float they are whole
@@ -89,4 +90,4 @@ class Places {
   K unit_ = 0;
 };
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -3,10 +3,11 @@
 
 #include <cstddef>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Four numbers that are worked on together: a vector of two or three components and room for one more
 /// number. Size and alignment are the same for any instruction set; handed over by reference only,
@@ -80,4 +81,4 @@ template <int D, class S>
   return v;
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -5,10 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/lanes.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -116,4 +117,4 @@ class SlotArrays {
   std::vector<K> values_;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstddef>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/lanes.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Brings `view` of the particles of `block` into `slots`, in the scalar type of the kernels.
 /// `value(number, slot, component)` is what is kept of each number.
@@ -102,4 +103,4 @@ HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const Vi
   deliver(blocks, block, view, lanes, [](T& entry, K number, std::size_t) { entry = static_cast<T>(number); });
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/abi.hpp"
 #include "hmps/laws/invariants.hpp"
 #include "hmps/laws/law.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A law that `Continued` can continue: of the form W = g1(J) I1 + g2(J) I2 + h(J), with
 /// `law.invariant_factors(J)` beside `second_piola_kirchhoff` and `energy`. Satisfied by
@@ -90,4 +91,4 @@ Continued(Law) -> Continued<Law>;
 template <class Law, class P>
 Continued(Law, P) -> Continued<Law, P>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 
 /// Invariants of the right Cauchy-Green tensor, shared by the laws. In two dimensions everything
 /// belongs to plane strain, C33 = 1.
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// The first invariant I1 of C; in plane strain C33 = 1 counts too.
 template <class T, int D>
@@ -103,4 +104,4 @@ struct InvariantFactors {
   T volumetric_curvature;  ///< d2h/dJ2
 };
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -5,11 +5,12 @@
 #include <concepts>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 /// An Eigen matrix or expression of `D` by `D` numbers `T`: Eigen itself converts first and complains later.
@@ -109,4 +110,4 @@ void require_modulus(P value, const char* law, const char* name, const char* rem
 
 }  // namespace detail
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

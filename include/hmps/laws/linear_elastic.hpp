@@ -3,9 +3,10 @@
 
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/laws/law.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Linear elasticity in the small strain e = (F + F^T) / 2 - I,
 ///
@@ -65,4 +66,4 @@ struct LinearElastic {
 template <class P>
 LinearElastic(P, P) -> LinearElastic<P>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -3,10 +3,11 @@
 
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/laws/invariants.hpp"
 #include "hmps/laws/law.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The Mooney-Rivlin law of nearly incompressible soft tissue, \paper{15, 16, 17}:
 ///
@@ -98,4 +99,4 @@ struct MooneyRivlin {
 template <class P>
 MooneyRivlin(P, P, P) -> MooneyRivlin<P>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

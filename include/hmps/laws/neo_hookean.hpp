@@ -3,10 +3,11 @@
 
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/laws/invariants.hpp"
 #include "hmps/laws/law.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The compressible neo-Hookean law with the isochoric first invariant,
 ///
@@ -78,4 +79,4 @@ struct NeoHookean {
 template <class P>
 NeoHookean(P, P) -> NeoHookean<P>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

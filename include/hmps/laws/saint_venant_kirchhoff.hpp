@@ -3,9 +3,10 @@
 
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/laws/law.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The Saint Venant-Kirchhoff law: linear elasticity in the Green-Lagrange strain E = (C - I) / 2,
 ///
@@ -63,4 +64,4 @@ struct SaintVenantKirchhoff {
 template <class P>
 SaintVenantKirchhoff(P, P) -> SaintVenantKirchhoff<P>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/motion/rigid_motion.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A control region (section 3.1 of the paper): particles that shift by forced displacement. Their
 /// velocity is prescribed so that the following drift, \paper{4}, lands on the motion; whatever
@@ -117,4 +118,4 @@ class ControlRegion {
 template <class T, int D, class M>
 ControlRegion(std::vector<Index>, const VectorView<T, D>&, M) -> ControlRegion<std::remove_const_t<T>, D, M>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -10,11 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/text_file.hpp"
 #include "hmps/motion/keyframes.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A table of numbers with named columns, as read from a CSV file.
 struct Table {
@@ -138,4 +139,4 @@ template <std::size_t N>
   return keyframes<1>(table, {name}, scale, time);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

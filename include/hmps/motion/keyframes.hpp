@@ -9,10 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Value of a track at one time: a number for `N` = 1, else `N` numbers.
 template <int N>
@@ -117,4 +118,4 @@ class Keyframes {
 /// A track of one number.
 using Track = Keyframes<1>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

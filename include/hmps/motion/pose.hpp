@@ -4,9 +4,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Rotation matrix of the angle `angle` (rad, counter-clockwise) in the plane.
 template <class S>
@@ -109,4 +110,4 @@ template <class S, int D>
     return rate.linear + rate.angular.cross(arm);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

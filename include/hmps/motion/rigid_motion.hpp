@@ -4,11 +4,12 @@
 #include <concepts>
 #include <utility>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/motion/keyframes.hpp"
 #include "hmps/motion/pose.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A motion in `D` dimensions. Valid expression: `motion(t)(X)`, the position at time `t` (s) of the
 /// material point with reference position `X` (m), both in double. Satisfied by anything that
@@ -80,4 +81,4 @@ template <class Carrier, class Own>
   };
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

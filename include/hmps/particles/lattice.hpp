@@ -8,12 +8,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -124,4 +125,4 @@ requires Shape<F, S, D>
   return detail::joined<S, D>(slabs, execute);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

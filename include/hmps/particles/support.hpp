@@ -10,13 +10,14 @@
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// When a particle counts as weakly supported. Its support is the smallest eigenvalue of A,
 /// \paper{12}, with the weights of \paper{8}, in units of the squared spacing: with the paper's
@@ -171,4 +172,4 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
   return left;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -10,13 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -152,4 +153,4 @@ template <class S, Executor E = Serial>
   return detail::joined<S, 3>(slabs, execute);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

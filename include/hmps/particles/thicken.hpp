@@ -11,12 +11,13 @@
 
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/particles/support.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Allows every site: the predicate of `thicken` without forbidden regions.
 struct AllowEverywhere {
@@ -173,4 +174,4 @@ template <class T, int D, class Allowed = AllowEverywhere>
   return added;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

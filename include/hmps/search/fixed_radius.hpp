@@ -9,12 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The neighbours of every particle in one array: those of particle `i`, sorted by index, are
 /// `neighbour[offset[i]]` up to `neighbour[offset[i + 1] - 1]`. Particle `i` is not among its own.
@@ -191,4 +192,4 @@ template <class T, int D, Executor E = Serial>
   return find_neighbours(FixedRadiusSearch<T, D>(points), radius, execute);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

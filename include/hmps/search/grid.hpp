@@ -8,10 +8,11 @@
 #include <limits>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A uniform cell list of points: all points within a radius of a place, for searches that are
 /// repeated while the points move. Building is linear in the number of points. On particles of about
@@ -133,4 +134,4 @@ class Grid {
   std::vector<Entry> points_;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

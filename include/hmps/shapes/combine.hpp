@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -170,4 +171,4 @@ template <class A, class Map>
   return detail::Combined{[a = std::move(a), map = std::move(map)](const auto& x) { return a(map(x)); }};
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <concepts>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A shape in `D` dimensions. Valid expression: `shape(x)` with `x` a `Vector<S, D>` in metres; the
 /// result is negative inside, positive outside, and about the signed distance to the surface in
@@ -144,4 +145,4 @@ struct Torus {
   }
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

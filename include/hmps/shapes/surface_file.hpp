@@ -13,12 +13,13 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/text_file.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
@@ -189,4 +190,4 @@ template <class S>
   throw InputError(message("hmps: ", path, " is neither .stl nor .obj; convert it to one of these"));
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

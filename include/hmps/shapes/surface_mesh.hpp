@@ -11,13 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A surface of triangles, counter-clockwise seen from outside.
 template <class S>
@@ -159,4 +160,4 @@ template <class S>
   return std::abs(angle) > 2 * std::numbers::pi;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

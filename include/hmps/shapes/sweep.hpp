@@ -9,11 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Signed distance, to first order, of the point (u, v) to the superellipse
 /// |u / a|^n + |v / b|^n = 1 with half axes a, b > 0 (m) and exponent n >= 1: 1 is a rhombus, 2 an
@@ -219,4 +220,4 @@ class Plate {
   S exponent_;
 };
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -5,10 +5,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// C_i^art of \paper{20} in Pa/m2, E_hat d / sum |r0|^2 w, from E_hat in Pa, the number of dimensions
 /// d, and 1 / sum |r0|^2 w in 1/m2.
@@ -58,4 +59,4 @@ template <class Modulus>
   return {std::move(modulus)};
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -4,11 +4,12 @@
 #include <concepts>
 #include <utility>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/laws/law.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The elastic force of the Hamiltonian MPS method, \paper{13}: the gradient of the strain energy
 /// (\paper{5, 6}) with respect to the particles, M += F S A^-1 (see `Coupling`).
@@ -47,4 +48,4 @@ template <class Law>
   return {std::move(law)};
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -8,12 +8,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Resists the change of volume of neighbourhoods instead of that of each particle, so that thin and nearly
 /// incompressible bodies bend as they should (mean dilatation: Nagtegaal, Parks and Rice 1974 for finite elements).
@@ -117,4 +118,4 @@ template <class B, class K = typename B::Scalar>
 
 }  // namespace detail
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

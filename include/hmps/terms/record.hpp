@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/staging.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// A term of `internal_force` that adds no force but writes the deformation gradient of every
 /// particle into the user's array as the first sweep passes, for contact and diagnostics.
@@ -27,4 +28,4 @@ template <class T, int D>
   return {target};
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

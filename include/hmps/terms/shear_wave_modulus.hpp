@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace hmps {
+#include "hmps/core/abi.hpp"
+
+namespace hmps::inline HMPS_ABI {
 
 /// The E_hat of \paper{20} at which the lattice carries long shear waves best: 4/3 of the shear modulus.
 ///
@@ -24,4 +26,4 @@ template <class T>
   return shear_modulus * T(4.0 / 3.0);
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

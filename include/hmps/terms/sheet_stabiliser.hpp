@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/shear_wave_modulus.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// What `sheet_stabiliser` chooses, in Pa.
 template <class P>
@@ -36,4 +37,4 @@ template <class P>
   return {ratio < P(100) ? more : wave, shared};
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

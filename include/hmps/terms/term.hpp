@@ -4,12 +4,13 @@
 #include <concepts>
 #include <cstddef>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/lanes.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// One block of particles as a term sees it, a particle in each lane.
 template <class K, int D>
@@ -113,4 +114,4 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DilatationTerm<Term, K, D>;
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

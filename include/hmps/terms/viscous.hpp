@@ -3,10 +3,11 @@
 
 #include <cmath>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// The viscous force of the standard MPS method, \paper{21}: rho nu times the MPS model of the
 /// Laplacian of the velocity. n^0 and lambda, which the paper leaves to its references, are those of
@@ -35,4 +36,4 @@ struct Viscous {
   return {density, viscosity};
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

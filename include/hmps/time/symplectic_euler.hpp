@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/step.hpp"
@@ -19,7 +20,7 @@
 /// The order of the calls is the scheme: another scheme is another order. No verb knows a force.
 /// Every particle moves; whatever has a forced displacement gets its velocity prescribed between the
 /// last kick and the drift.
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// Adds to the velocities what the force densities give in the time `dt`, \paper{2} and \paper{3}:
 /// v <- v + f dt / rho. The mass cancels.
@@ -85,4 +86,4 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, cons
   });
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI
