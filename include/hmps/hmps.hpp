@@ -31,6 +31,7 @@
 #include "hmps/contact/raised_skin.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"

@@ -15,6 +15,7 @@
 
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
@@ -56,16 +57,17 @@ struct StableStep {
 namespace detail {
 
 inline void validate(const StableStepSettings& s) {
-  require(s.spacing > 0 && std::isfinite(s.spacing), "hmps: the spacing of stable_step is ", s.spacing,
+  require(detail::is_finite(s.spacing) && s.spacing > 0, "hmps: the spacing of stable_step is ", s.spacing,
           " m; give the particle spacing l0, which sets the size of its trial displacements");
-  require(s.margin >= 0 && s.margin < 1, "hmps: the margin of stable_step is ", s.margin, "; it must lie in [0, 1)");
-  require(s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of stable_step is ", s.tolerance,
-          "; it must lie between 0 and 1, for example 0.02");
+  require(detail::is_finite(s.margin) && s.margin >= 0 && s.margin < 1, "hmps: the margin of stable_step is ", s.margin,
+          "; it must lie in [0, 1)");
+  require(detail::is_finite(s.tolerance) && s.tolerance > 0 && s.tolerance < 1,
+          "hmps: the tolerance of stable_step is ", s.tolerance, "; it must lie between 0 and 1, for example 0.02");
   require(s.max_iterations > 0, "hmps: stable_step may make ", s.max_iterations, " iterations; allow at least one");
   require(s.refresh_iterations > 0, "hmps: a refresh of stable_step makes ", s.refresh_iterations,
           " iterations; allow at least one");
-  require(s.perturbation >= 0 && s.perturbation < 0.1, "hmps: the perturbation of stable_step is ", s.perturbation,
-          " spacings; it must lie in [0, 0.1)");
+  require(detail::is_finite(s.perturbation) && s.perturbation >= 0 && s.perturbation < 0.1,
+          "hmps: the perturbation of stable_step is ", s.perturbation, " spacings; it must lie in [0, 0.1)");
 }
 
 /// The length in m of trial displacements of positions in `T`.
@@ -182,7 +184,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
     c = scene.damped() ? scene.dot(best.y, best.damping) : 0.0;
     const double dt = detail::step_limit(k, c);
     result.limit = dt;
-    if (!std::isfinite(dt)) {
+    if (!detail::is_finite(dt)) {
       // Neither stiffness nor damping answers to noise: nothing limits the step.
       result.converged = true;
       result.residual = 0;

@@ -15,6 +15,7 @@
 #include "hmps/bonds/lattice_cells.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/lanes/blocks.hpp"
 
 namespace hmps {
@@ -161,6 +162,8 @@ class LatticeBonds : public Blocks<K, D> {
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
       const double radius = settings.spacing * settings.radius_ratio;
       const double w = weight(std::min(r0.norm(), radius), radius);
+      require(detail::is_finite(w), "hmps: the weight at the distance ", r0.norm(), " m is ", w,
+              "; a weight function must be finite within the effective radius");
       if (!(w > 0)) continue;
       inside.add(r0, w);
       Offset& offset = offset_.emplace_back();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
@@ -30,7 +31,7 @@ struct LatticeCells {
     for (std::size_t i = 0; i < cell.size(); ++i)
       for (int c = 0; c < D; ++c) {
         const double place = (double(reference(i, c)) - double(reference(0, c))) / spacing;
-        require(std::abs(place) < 1e6, "hmps: particle ", i, " lies ", place,
+        require(is_finite(place) && std::abs(place) < 1e6, "hmps: particle ", i, " lies ", place,
                 " spacings from particle 0; a lattice may span 1e6");
         const double nearest = std::round(place);
         require(std::abs(place - nearest) < 1e-3, "hmps: component ", c, " of particle ", i, " lies ", place,

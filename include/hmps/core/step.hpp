@@ -5,12 +5,13 @@
 #include <type_traits>
 
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 
 namespace hmps::detail {
 
 /// Throws `InputError` unless `dt` (s) is a time step.
 inline void require_step(double dt) {
-  require(dt > 0 && std::isfinite(dt), "hmps: the time step is ", dt,
+  require(detail::is_finite(dt) && dt > 0, "hmps: the time step is ", dt,
           " s; it must be positive and finite (stable_step estimates the largest stable one)");
 }
 /// One component of the velocity of one particle, under the force density f: v + f dt / rho.

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps {
@@ -303,7 +304,7 @@ template <class T, int N>
 void require_finite(const View<T, N>& view, const char* name) {
   for (std::size_t i = 0; i < view.size(); ++i)
     for (int c = 0; c < N; ++c)
-      require((view(i, c) - view(i, c)) == 0, "hmps: component ", c, " of ", name, " of particle ", i, " is ",
+      require(detail::is_finite(view(i, c)), "hmps: component ", c, " of ", name, " of particle ", i, " is ",
               view(i, c), "; every component must be a finite number");
 }
 

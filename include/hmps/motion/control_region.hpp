@@ -11,6 +11,7 @@
 
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/motion/rigid_motion.hpp"
@@ -40,7 +41,7 @@ class ControlRegion {
               reference.size(), "; give indices into the view of reference positions");
       require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
               " twice; name each once");
-      require(reference[sorted[k]].allFinite(), "hmps: the reference position of particle ", sorted[k], " is (",
+      require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k], " is (",
               reference[sorted[k]].transpose(), "); give finite metres");
     }
   }
@@ -64,8 +65,12 @@ class ControlRegion {
   template <class X, class V, Executor E = Serial>
   void prescribe(double t_next, double dt, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute = {},
                  double speed_limit = std::numeric_limits<double>::max()) const {
-    require(std::isfinite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
+    require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
             " s; give a positive step");
+    require(detail::is_finite(t_next), "hmps: a control region is moved to the time ", t_next,
+            " s; give finite seconds");
+    require(!detail::is_nan(speed_limit), "hmps: the speed limit of a control region is ", speed_limit,
+            " m/s; give a positive number, or leave it out");
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
     const auto pose = motion_(t_next);
@@ -74,7 +79,8 @@ class ControlRegion {
       const std::size_t i = particles_[k];
       const Vector<double, D> target = pose(Vector<double, D>(reference_[i].template cast<double>()));
       const Vector<double, D> rate = (target - x[i].template cast<double>()) * per_step;
-      if (!(rate.squaredNorm() <= largest))
+      const double squared = rate.squaredNorm();
+      if (!detail::is_finite(squared) || squared > largest)
         throw StateError(message("hmps: a control region asks particle ", i, " for ", rate.norm(), " m/s to be at (",
                                  target.transpose(), ") at ", t_next,
                                  " s; check its keyframes, or place the region where the run starts"));

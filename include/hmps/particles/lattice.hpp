@@ -10,6 +10,7 @@
 
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
@@ -38,12 +39,13 @@ inline constexpr double most_sites = 8589934592.0;
 
 template <class S, int D>
 [[nodiscard]] LatticeSites<D> lattice_sites(const Box<S, D>& box, S spacing, const Vector<S, D>& origin) {
-  require(std::isfinite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
+  require(detail::is_finite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
           "; give a positive number of metres");
-  require(origin.allFinite(), "hmps: the lattice origin is (", origin.transpose(), "); give finite metres");
-  require(box.lower.allFinite() && box.upper.allFinite() && (box.lower.array() <= box.upper.array()).all(),
-          "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
-          "); give finite corners in metres, the lower one first");
+  require(detail::all_finite(origin), "hmps: the lattice origin is (", origin.transpose(), "); give finite metres");
+  require(
+      detail::all_finite(box.lower) && detail::all_finite(box.upper) && (box.lower.array() <= box.upper.array()).all(),
+      "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+      "); give finite corners in metres, the lower one first");
   LatticeSites<D> sites;
   sites.spacing = static_cast<double>(spacing);
   sites.origin = origin.template cast<double>();
@@ -104,11 +106,10 @@ requires Shape<F, S, D>
       for (std::int64_t k = 0; k < sites.count[D - 1]; ++k) {
         x[D - 1] = static_cast<S>(sites.coordinate(D - 1, k));
         const S distance = static_cast<S>(shape(x));
-        if (distance < S(0))
-          found.push_back(x);
-        else if (distance != distance)
+        if (detail::is_nan(distance))
           throw InputError(
               message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+        if (distance < S(0)) found.push_back(x);
       }
     };
     if constexpr (D == 3) {

@@ -12,6 +12,7 @@
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -45,10 +46,11 @@ namespace detail {
 
 inline void validate(const SupportSettings& settings) {
   validate(BondSettings{settings.spacing, settings.radius_ratio});
-  require(settings.threshold >= 0 && std::isfinite(settings.threshold), "hmps: the support threshold is ",
+  require(detail::is_finite(settings.threshold) && settings.threshold >= 0, "hmps: the support threshold is ",
           settings.threshold, "; it must not be negative (0.75 suits the paper's radius)");
-  require(settings.smallest_piece >= 0 && settings.smallest_piece <= 1, "hmps: the smallest piece to keep is ",
-          settings.smallest_piece, " of all particles; give a share from 0 to 1");
+  require(detail::is_finite(settings.smallest_piece) && settings.smallest_piece >= 0 && settings.smallest_piece <= 1,
+          "hmps: the smallest piece to keep is ", settings.smallest_piece,
+          " of all particles; give a share from 0 to 1");
 }
 
 /// The neighbourhoods of a cloud that is about to lose particles.

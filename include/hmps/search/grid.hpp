@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps {
@@ -27,7 +28,8 @@ class Grid {
   /// Throws `InputError` on a point that is not finite and on a cell that is not positive.
   template <class Position>
   void build(std::size_t n, S cell, Position&& position) {
-    require(cell > 0 && std::isfinite(cell), "hmps: the cell of a search grid is ", cell, " m; give a positive radius");
+    require(detail::is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell,
+            " m; give a positive radius");
     require(n < std::numeric_limits<Index>::max(), "hmps: ", n, " points are more than a 32-bit index can number");
     raw_.resize(n);
     lowest_ = Point::Constant(std::numeric_limits<S>::max());
@@ -35,7 +37,7 @@ class Grid {
     for (std::size_t k = 0; k < n; ++k) {
       const Point p = position(k);
       for (int c = 0; c < D; ++c)
-        require(std::isfinite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
+        require(detail::is_finite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
                 "; every component must be a finite number");
       raw_[k] = p;
       lowest_ = lowest_.cwiseMin(p);
@@ -87,7 +89,7 @@ class Grid {
     std::array<std::size_t, 3> from{}, to{};
     for (int c = 0; c < D; ++c) {
       const auto d = static_cast<std::size_t>(c);
-      if (!(centre[c] + radius >= lowest_[c])) return;
+      if (detail::is_nan(centre[c]) || !(centre[c] + radius >= lowest_[c])) return;
       if ((centre[c] - radius - lowest_[c]) * inverse_ >= static_cast<S>(cells_[d])) return;
       from[d] = coordinate(centre[c] - radius, c);
       to[d] = coordinate(centre[c] + radius, c);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps {
@@ -52,8 +53,7 @@ struct Artificial {
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
   if constexpr (std::is_arithmetic_v<Modulus>)
-    require(modulus >= 0 && std::isfinite(static_cast<double>(modulus)),
-            "hmps: the modulus of the artificial force is ", modulus,
+    require(detail::is_finite(modulus) && modulus >= 0, "hmps: the modulus of the artificial force is ", modulus,
             " Pa; it must not be negative (the paper takes Young's modulus)");
   return {std::move(modulus)};
 }
