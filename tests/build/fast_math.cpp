@@ -21,7 +21,7 @@ void refuses(const char* what, double value, Call&& call) {
   } catch (const hmps::Error&) {
     return;
   }
-  std::printf("%s: %g passes in silence\n", what, value);
+  std::fprintf(stderr, "%s: %g passes in silence\n", what, value);
   ++silent;
 }
 
