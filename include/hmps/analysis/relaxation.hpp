@@ -161,8 +161,12 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
                 "force densities");
   const std::size_t n = x.size();
   detail::validate(settings);
+  require(n > 0, "hmps: relax was given no particle");
   require_size(v, n, "velocities");
   require_size(f, n, "force densities");
+  require_apart(x, "positions", v, "velocities");
+  require_apart(x, "positions", f, "force densities");
+  require_apart(v, "velocities", f, "force densities");
   require_positive(rho, n, "density", "kg/m3");
   require_finite(x, "the position");
   const auto moves = [&](std::size_t i) { return !settings.moves || settings.moves(i); };

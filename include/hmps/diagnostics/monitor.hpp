@@ -87,6 +87,7 @@ template <class T, int N>
 template <class X, class V, class FView, int D, class E>
 [[nodiscard]] std::optional<Fault> find_fault(const VectorView<X, D>& x, const VectorView<V, D>& v, const FView* F,
                                               const StateLimits& limits, const E& execute) {
+  require_view(x, "positions");
   require_size(v, x.size(), "velocities");
   require(!is_nan(limits.speed_limit), "hmps: the speed limit is NaN; give a positive number of m/s");
   if (F != nullptr) require_size(*F, x.size(), "deformation gradients");

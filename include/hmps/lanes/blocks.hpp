@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/anchored.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/lanes.hpp"
@@ -22,7 +23,7 @@ namespace hmps {
 /// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
 /// slots. Holds what both models of bonds share: the reference configuration (\paper{12}).
 template <class K, int D>
-class Blocks {
+class Blocks : public detail::Anchored {
  public:
   using Scalar = K;
   static constexpr int dimension = D;

@@ -30,10 +30,12 @@ template <class S, int D, class M = std::function<Pose<double, D>(double)>>
 requires Motion<M, D>
 class ControlRegion {
  public:
-  /// Throws `InputError` for an index beyond the view, one given twice, or a reference position
-  /// that is not finite.
+  /// Throws `InputError` for a region without particles, an index beyond the view, one given twice, or a reference
+  /// position that is not finite.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
+    require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
+    require_view(reference, "reference positions");
     std::vector<Index> sorted = particles_;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k < sorted.size(); ++k) {
@@ -49,8 +51,11 @@ class ControlRegion {
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
   [[nodiscard]] const M& motion() const { return motion_; }
 
-  /// The prescribed position of the `k`-th particle of the region at time `t` (s).
+  /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` for a `k` that
+  /// it does not have.
   [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
+    require(k < particles_.size(), "hmps: the place of particle ", k, " of a control region is asked for, but it has ",
+            particles_.size(), " particles, counted from 0");
     return motion_(t)(reference_[particles_[k]].template cast<double>());
   }
 
