@@ -73,6 +73,7 @@
 #include "hmps/particles/thicken.hpp"
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/search/grid.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 #include "hmps/shapes/combine.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/surface_file.hpp"
