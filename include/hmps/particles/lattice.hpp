@@ -97,9 +97,10 @@ template <class S, int D>
     const double low = std::ceil((static_cast<double>(box.lower[c]) - sites.origin[c]) / sites.spacing - slack);
     const double high = std::floor((static_cast<double>(box.upper[c]) - sites.origin[c]) / sites.spacing + slack);
     product *= std::max(high - low + 1, 0.0);
-    require(std::max(std::abs(low), std::abs(high)) < 9e15 && product <= most_sites, "hmps: the box holds about ",
-            product, " lattice sites of spacing ", spacing,
-            " m or more; give box and spacing in metres, or a larger spacing");
+    require(
+        is_finite(low) && is_finite(high) && std::max(std::abs(low), std::abs(high)) < 9e15 && product <= most_sites,
+        "hmps: the box holds about ", product, " lattice sites of spacing ", spacing,
+        " m or more; give box and spacing in metres, or a larger spacing");
     sites.first[c] = static_cast<std::int64_t>(low);
     sites.count[c] = static_cast<std::int64_t>(std::max(high - low + 1, 0.0));
   }

@@ -25,7 +25,8 @@ class Grid {
 
   /// Sorts the points `position(k)`, `k` in `[0, n)`, into cells of edge `cell` in m (about the radius
   /// of the searches to come; larger where the points would need more than about 4 n cells).
-  /// Throws `InputError` on a point that is not finite and on a cell that is not positive.
+  /// Throws `InputError` on a point that is not finite, on points whose distance is not, and on a cell that is not
+  /// positive.
   template <class Position>
   void build(std::size_t n, S cell, Position&& position) {
     require(detail::is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell,
@@ -52,6 +53,8 @@ class Grid {
       return;
     }
     const Point extent = highest - lowest_;
+    require(detail::all_finite(extent), "hmps: the points of a search grid span more than ",
+            std::numeric_limits<S>::max(), " m; look for positions that are no lengths in metres");
     double count = 0;
     for (const double most = 4. * static_cast<double>(n) + 64;; cell *= S(1.26)) {
       count = 1;

@@ -165,6 +165,10 @@ TYPED_TEST(Lattice, RefusesWhatCannotBeFilled) {
   EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, unit, S(0.1), V(V::Constant(infinity))), hmps::InputError);
   const auto nan = [](const V&) { return std::numeric_limits<S>::quiet_NaN(); };
   EXPECT_THROW((void)hmps::fill_lattice(nan, unit, S(0.5)), hmps::InputError);
+  const V most = V::Constant(std::numeric_limits<S>::max());
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, Box<S, D>{-most, most}, S(1)), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, Box<S, D>{most, most}, S(1), V(-most)), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, unit, std::numeric_limits<S>::denorm_min()), hmps::InputError);
   try {
     (void)hmps::fill_lattice(Everywhere{}, unit, S(1e-7));
     ADD_FAILURE() << "1e14 sites or more were accepted";
