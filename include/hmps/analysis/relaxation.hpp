@@ -20,6 +20,18 @@
 
 namespace hmps {
 
+/// How `relax` came to rest.
+struct Relaxation {
+  /// The unbalanced forces over the load: the sum of |f| l0^D over the particles that move, over
+  /// `RelaxationSettings::load`.
+  double residual = 0;
+  double load = 0;      ///< in N, as given or as carried by the particles that do not move
+  int iterations = 0;   ///< steps made
+  int peaks = 0;        ///< how often the body was stopped at a peak of its kinetic energy
+  double step = 0;      ///< the last step in s
+  int evaluations = 0;  ///< of the force, with those of `stable_step`
+};
+
 /// How `relax` looks for the state of rest.
 struct RelaxationSettings {
   double spacing = 0;       ///< particle spacing l0 in m, positive
@@ -31,18 +43,9 @@ struct RelaxationSettings {
   double step = 0;              ///< in s; 0: that of `stable_step`, kept up to date on the way
   /// Whether particle i follows the forces. The others stay where they are. Empty: all follow.
   std::function<bool(std::size_t)> moves = {};
-};
-
-/// How `relax` came to rest.
-struct Relaxation {
-  /// The unbalanced forces over the load: the sum of |f| l0^D over the particles that move, over
-  /// `RelaxationSettings::load`.
-  double residual = 0;
-  double load = 0;      ///< in N, as given or as carried by the particles that do not move
-  int iterations = 0;   ///< steps made
-  int peaks = 0;        ///< how often the body was stopped at a peak of its kinetic energy
-  double step = 0;      ///< the last step in s
-  int evaluations = 0;  ///< of the force, with those of `stable_step`
+  /// Called after each evaluation of the force with what is known by then, to show that something happens, or to throw
+  /// where it takes too long. Empty: nothing is called.
+  std::function<void(const Relaxation&)> progress = {};
 };
 
 namespace detail {
@@ -221,6 +224,8 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
       detail::throw_not_finite(f, settings.load > 0 ? follows : std::vector<char>(n, 1), result.iterations);
     result.load = carried;
     result.residual = sums.moving > 0 ? sums.moving * volume / carried : 0.0;
+    result.step = step.value();
+    if (settings.progress) settings.progress(result);
 
     const bool balanced = result.residual <= settings.tolerance;
     if (balanced && at_rest) break;

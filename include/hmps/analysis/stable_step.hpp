@@ -21,6 +21,8 @@
 
 namespace hmps {
 
+struct StableStep;
+
 /// How `stable_step` looks for the largest stable step.
 struct StableStepSettings {
   double spacing = 0;        ///< particle spacing l0 in m, positive: the scale of the trial displacements
@@ -34,6 +36,9 @@ struct StableStepSettings {
   int refresh_iterations = 4;  ///< made at least when there is a `start`
   /// Whether particle i follows the forces; those with a forced displacement do not. Empty: all do.
   std::function<bool(std::size_t)> moves = {};
+  /// Called after each iteration with what is known by then (limit, residual, iterations), to show that something
+  /// happens, or to throw where it takes too long. Empty: nothing is called.
+  std::function<void(const StableStep&)> progress = {};
 };
 
 /// The largest stable step of a scene and what limits it.
@@ -151,7 +156,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   detail::Direction<D> best(n), descent(n), previous(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (int c = 0; c < D; ++c)
-      best.y[i][c] = detail::noise(settings.seed * 0x100000001b3u + static_cast<std::uint64_t>(i) * D +
+      best.y[i][c] = detail::noise(settings.seed * 0x100000001b3u + std::uint64_t{i} * D +
                                    static_cast<std::uint64_t>(c));
     if (!moves(i)) best.y[i].setZero();
   }
@@ -197,6 +202,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
     };
     execute(n, [&](std::size_t i) { descent.y[i] = image(best, i) - 4.0 * best.y[i]; });
     result.residual = std::sqrt(scene.dot(descent.y, descent.y)) / 4;
+    if (settings.progress) settings.progress(result);
     const bool settled =
         result.residual < settings.tolerance && (result.iterations >= least || result.residual < exact);
     if (settled || result.iterations >= settings.max_iterations) {
@@ -222,7 +228,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
     // Rayleigh-Ritz in the span of the three.
     std::array<const detail::Direction<D>*, 3> basis{&best, &descent, &previous};
     const int dimension = have_previous ? 3 : 2;
-    Matrix<double, 3> small = Matrix<double, 3>::Zero();
+    Matrix<double, 3> projected = Matrix<double, 3>::Zero();
     for (int a = 0; a < 3; ++a) {
       for (int b = 0; b <= a && a < dimension; ++b) {
         const auto& left = *basis[static_cast<std::size_t>(a)];
@@ -230,11 +236,12 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
         const auto entry = [&](const auto& p, const auto& q) {
           return dt * dt * scene.dot(p.y, q.stiffness) + (scene.damped() ? 2 * dt * scene.dot(p.y, q.damping) : 0.0);
         };
-        small(a, b) = small(b, a) = (entry(left, right) + entry(right, left)) / 2;
+        projected(a, b) = projected(b, a) = (entry(left, right) + entry(right, left)) / 2;
       }
-      if (a >= dimension) small(a, a) = -(std::abs(small(0, 0)) + std::abs(small(1, 1)));  // never the largest
+      if (a >= dimension)
+        projected(a, a) = -(std::abs(projected(0, 0)) + std::abs(projected(1, 1)));  // never the largest
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix<double, 3>> solver(small);
+    const Eigen::SelfAdjointEigenSolver<Matrix<double, 3>> solver(projected);
     const Vector<double, 3> weight = solver.eigenvectors().col(2);
     scene.blend(previous, have_previous ? weight[2] : 0.0, descent, weight[1]);
     scene.blend(best, weight[0], previous, 1.0);
