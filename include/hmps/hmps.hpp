@@ -5,6 +5,8 @@
 /// (`hmps/executors/`). Each header also stands alone: a program that includes only what it uses
 /// compiles faster.
 
+#include "hmps/core/language.hpp"  // first: what it says is clearer than what the others would
+
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/relaxation.hpp"
 #include "hmps/analysis/stable_step.hpp"

@@ -5,6 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "hmps/core/language.hpp"
+
+#if defined(min) || defined(max)
+#error "hmps: min and max are macros: define NOMINMAX before <windows.h> is included"
+#endif
+
 namespace hmps {
 
 /// Base of every exception that the library throws. The message names the particle, the value

@@ -19,7 +19,7 @@ namespace detail {
 
 template <int N, class T>
 [[nodiscard]] View<T, N> interleaved(T* first, std::size_t size, std::ptrdiff_t stride) {
-  std::array<T*, N> base{};
+  std::array<T*, std::size_t{N}> base{};
   for (int c = 0; c < N; ++c) base[static_cast<std::size_t>(c)] = first == nullptr ? nullptr : first + c;
   return {base, size, stride};
 }
@@ -141,7 +141,7 @@ requires(detail::EigenView<M>&& detail::Columns<std::remove_cvref_t<M>>) [[nodis
   constexpr int D = std::remove_cvref_t<M>::RowsAtCompileTime;
   const std::ptrdiff_t row = by_rows ? columns.outerStride() : columns.innerStride();
   const std::ptrdiff_t col = by_rows ? columns.innerStride() : columns.outerStride();
-  std::array<T*, D> base{};
+  std::array<T*, std::size_t{D}> base{};
   for (int c = 0; c < D; ++c) base[static_cast<std::size_t>(c)] = columns.data() + c * row;
   return VectorView<T, D>(base, static_cast<std::size_t>(columns.cols()), col * static_cast<std::ptrdiff_t>(sizeof(T)));
 }

@@ -23,7 +23,8 @@ class View {
   View() = default;
 
   /// A view of `size` particles whose components start at `base` and lie `stride` bytes apart.
-  View(std::array<T*, N> base, std::size_t size, std::ptrdiff_t stride) : base_(base), size_(size), stride_(stride) {}
+  View(std::array<T*, std::size_t{N}> base, std::size_t size, std::ptrdiff_t stride)
+      : base_(base), size_(size), stride_(stride) {}
 
   /// A writable view converts to a read-only one.
   template <class U>
@@ -43,13 +44,13 @@ class View {
 
   /// The particles `[first, first + count)` of this view.
   [[nodiscard]] View part(std::size_t first, std::size_t count) const {
-    std::array<T*, N> moved{};
+    std::array<T*, std::size_t{N}> moved{};
     for (int c = 0; c < N; ++c) moved[static_cast<std::size_t>(c)] = count == 0 ? base(c) : &(*this)(first, c);
     return {moved, count, stride_};
   }
 
  private:
-  std::array<T*, N> base_{};
+  std::array<T*, std::size_t{N}> base_{};
   std::size_t size_ = 0;
   std::ptrdiff_t stride_ = 0;
 };
