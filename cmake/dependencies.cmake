@@ -4,6 +4,27 @@
 # install rule of theirs gets into the user's build. HMPS_BUNDLED lists what was downloaded.
 set(HMPS_BUNDLED "")
 
+# hmps_archive(<package> <url> <variable>): downloads the archive, once, and ends with what to do about it where that is not
+# possible: FetchContent would try for more than a minute and then say no word of what is missing.
+function(hmps_archive package url variable)
+  set(remedy "install Eigen and nanoflann (Debian, Ubuntu: apt install libeigen3-dev libnanoflann-dev; vcpkg: eigen3, nanoflann)")
+  if(NOT HMPS_DOWNLOAD_DEPENDENCIES)
+    message(FATAL_ERROR "hmps: ${package} was not found and HMPS_DOWNLOAD_DEPENDENCIES is off: ${remedy}")
+  endif()
+  set(archive ${CMAKE_CURRENT_BINARY_DIR}/downloads/${package}.tar.gz)
+  if(NOT EXISTS ${archive})
+    file(DOWNLOAD ${url} ${archive}.part STATUS status TIMEOUT 300 INACTIVITY_TIMEOUT 10)
+    list(GET status 0 code)
+    list(GET status 1 text)
+    if(NOT code EQUAL 0)
+      file(REMOVE ${archive}.part)
+      message(FATAL_ERROR "hmps: ${package} was not found and ${url} cannot be downloaded (${text}): ${remedy}")
+    endif()
+    file(RENAME ${archive}.part ${archive})
+  endif()
+  set(${variable} ${archive} PARENT_SCOPE)
+endfunction()
+
 # hmps_dependency(<package> <target> <version> <folder of the headers in the archive> <url> <hash>)
 function(hmps_dependency package target version folder url hash)
   if(TARGET ${target})
@@ -20,6 +41,10 @@ function(hmps_dependency package target version folder url hash)
   include(FetchContent)
   if(POLICY CMP0135)
     cmake_policy(SET CMP0135 NEW)
+  endif()
+  string(TOUPPER hmps_${package} upper)
+  if(NOT FETCHCONTENT_SOURCE_DIR_${upper} AND NOT FETCHCONTENT_FULLY_DISCONNECTED)
+    hmps_archive(${package} ${url} url)
   endif()
   # There is no such sub-folder: MakeAvailable unpacks, and finds nothing to add.
   FetchContent_Declare(hmps_${package} URL ${url} URL_HASH SHA256=${hash} SOURCE_SUBDIR hmps-unpack-only)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where does a bar of soft tissue come to rest under its weight? The static answer, without waiting for it in time.
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <hmps/hmps.hpp>
 #include <vector>
@@ -26,8 +27,17 @@ int main() {
   const auto found =
       hmps::relax(force, hmps::vectors(position), hmps::vectors(velocity), hmps::vectors(load), rho,
                   {.spacing = l0, .load = weight, .moves = [&](std::size_t i) { return reference[i][0] > 0; }});
-  const double fall = 1e3 * (reference.back()[2] - position.back()[2]);
-  std::printf("After %d iterations %.2g of the weight is unbalanced, and the end has sunk by %.2f mm.\n",
-              found.iterations, found.residual, fall);
-  return std::abs(fall - 23.4) < 0.05 * 23.4 ? 0 : 1;  // finite elements: 23.4 mm
+  // How far the middle of the free end has sunk (m): the end lies half a spacing beyond its last particles.
+  const auto fall = [&] {
+    std::size_t last = 0, before = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      if ((reference[i] - Vector(0.06 - l0 / 2, 0.01, 0.01)).norm() < l0 / 4) last = i;
+      if ((reference[i] - Vector(0.06 - 3 * l0 / 2, 0.01, 0.01)).norm() < l0 / 4) before = i;
+    }
+    return 1.5 * (reference[last] - position[last])[2] - 0.5 * (reference[before] - position[before])[2];
+  };
+  const double sunk = 1e3 * fall();
+  std::printf("After %d iterations %.2g of the weight is unbalanced, and the middle of the end has sunk by %.2f mm.\n",
+              found.iterations, found.residual, sunk);
+  return std::abs(sunk - 23.4) < 0.05 * 23.4 ? 0 : 1;  // finite elements: 23.4 mm in the middle of the end face
 }

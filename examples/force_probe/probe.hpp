@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <hmps/bonds/bond_list.hpp>
 #include <hmps/contact/contact.hpp>
 #include <hmps/force/deformation_gradient.hpp>
-#include <hmps/terms/elastic.hpp>
-#include <hmps/laws/mooney_rivlin.hpp>
 #include <hmps/force/internal_force.hpp>
-#include <hmps/bonds/bond_list.hpp>
+#include <hmps/laws/mooney_rivlin.hpp>
+#include <hmps/search/nearest_spacing.hpp>
 #include <hmps/terms/artificial.hpp>
+#include <hmps/terms/elastic.hpp>
 #include <map>
 #include <numeric>
 #include <string>
@@ -97,6 +98,10 @@ template <class S>
   const auto x = hmps::vectors(state.position);
   const auto v = hmps::vectors(state.velocity);
   hmps::require_finite(hmps::vectors(state.reference), "the reference positions");
+  const double nearest = hmps::nearest_spacing(hmps::vectors(state.reference));
+  hmps::require(nearest == 0 || (settings.spacing < 2 * nearest && settings.spacing > nearest / 2), "the spacing is ",
+                settings.spacing, " m, but the nearest neighbours of the reference lie ", nearest,
+                " m apart; give the spacing of the particles in metres");
   hmps::require_finite(x, "the positions");
   hmps::require_finite(v, "the velocities");
   const hmps::BondList<S, 3> bonds(hmps::vectors(state.reference), {.spacing = settings.spacing},

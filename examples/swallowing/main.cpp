@@ -15,6 +15,7 @@
 #include "output/comparison.hpp"
 #include "output/progress.hpp"
 #include "run_case.hpp"
+#include "waiting.hpp"
 
 namespace swallowing {
 namespace {
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   const auto options = parse_options(argc, argv, std::cout, std::cerr, exit_code);
   if (!options) return exit_code;
+  wait_shortly_if_busy(options->threads, argv);
   try {
     const std::filesystem::path out(options->out);
     examples::prepare_folder(out);

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -91,6 +92,7 @@ class Run {
                                   .particles = scene_.reference.size(),
                                   .terminal = options_.bar && is_terminal()});
     describe_step();
+    describe_regions();
     if (!before) compare_step(0);
     double smallest_j = 1;
     try {
@@ -141,6 +143,28 @@ class Run {
                                options_.time_step > 0 ? " us, " : " us at first, ", std::round(100 * share),
                                " % of the limit at rest; ", simulation_.limited_by(), " (",
                                name(scene_.organ[limit.particle]), ")\n");
+  }
+  /// How many particles each control region has, those of one name together. One without any moves nothing: that must
+  /// not go unseen.
+  void describe_regions() const {
+    const auto particles = scene_.particles_of_regions();
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    for (std::size_t r = 0; r < particles.size(); ++r) {
+      const Region& region = scene_.regions[r];
+      const std::string name = region.kind == Region::door ? "H" : region.name;
+      auto at = std::find_if(counts.begin(), counts.end(), [&](const auto& count) { return count.first == name; });
+      if (at == counts.end()) at = counts.insert(counts.end(), {name, 0});
+      at->second += particles[r].size();
+    }
+    std::string text = hmps::message(chosen_.name, ": particles of the control regions");
+    const char* separator = ": ";
+    for (const auto& [name, count] : counts) text += hmps::message(std::exchange(separator, ", "), name, ' ', count);
+    std::cerr << text << '\n';
+    for (const auto& [name, count] : counts)
+      if (count == 0)
+        std::cerr << hmps::message(chosen_.name, ": warning: control region ", name,
+                                   " has no particle at a spacing of ", 1e3 * scene_.spacing,
+                                   " mm and is left out: nothing of it moves\n");
   }
   /// Keeps how near the step is to the limit, and warns where it is beyond.
   void compare_step(double time) {

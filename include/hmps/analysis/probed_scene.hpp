@@ -10,6 +10,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
@@ -75,7 +76,7 @@ class ProbedScene {
   [[nodiscard]] int evaluations() const { return evaluations_; }
   /// Trial velocities that weigh like the trial displacements do at the step `dt`.
   void scale_speed(double dt) {
-    if (std::isfinite(dt)) speed_ = length_ / dt;
+    if (detail::is_finite(dt)) speed_ = length_ / dt;
   }
 
   /// Fills what stiffness and damping make of `direction.y`, by central differences of the force.
@@ -135,9 +136,9 @@ class ProbedScene {
     execute_(size_, [&](std::size_t i) {
       image[i] = (minus_[i].template cast<double>() - plus_[i].template cast<double>()) / (2 * h * root_density(i));
     });
-    if (std::isfinite(dot(image, image))) return;
+    if (detail::is_finite(dot(image, image))) return;
     for (std::size_t i = 0; i < size_; ++i)
-      if (!std::isfinite(image[i].squaredNorm()))
+      if (!detail::is_finite(image[i].squaredNorm()))
         throw StateError(message("hmps: stable_step finds a force on particle ", i, " that is not finite, ",
                                  plus_[i].transpose(),
                                  " N/m3; look at its det F, and at x, v and the parameters of its law"));

@@ -14,24 +14,12 @@
 #include "hmps/analysis/stable_step.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
 namespace hmps::inline HMPS_ABI {
-
-/// How `relax` looks for the state of rest.
-struct RelaxationSettings {
-  double spacing = 0;       ///< particle spacing l0 in m, positive
-  double tolerance = 1e-3;  ///< the residual at which the search ends; see `Relaxation::residual`
-  /// What the unbalanced forces are compared with in N (in two dimensions N/m): the weight of the body, the force that
-  /// presses it. 0: what the particles carry that do not move, of which there must be some then.
-  double load = 0;
-  int max_iterations = 100000;  ///< of one evaluation of the force each
-  double step = 0;              ///< in s; 0: that of `stable_step`, kept up to date on the way
-  /// Whether particle i follows the forces. The others stay where they are. Empty: all follow.
-  std::function<bool(std::size_t)> moves = {};
-};
 
 /// How `relax` came to rest.
 struct Relaxation {
@@ -45,17 +33,33 @@ struct Relaxation {
   int evaluations = 0;  ///< of the force, with those of `stable_step`
 };
 
+/// How `relax` looks for the state of rest.
+struct RelaxationSettings {
+  double spacing = 0;       ///< particle spacing l0 in m, positive
+  double tolerance = 1e-3;  ///< the residual at which the search ends; see `Relaxation::residual`
+  /// What the unbalanced forces are compared with in N (in two dimensions N/m): the weight of the body, the force that
+  /// presses it. 0: what the particles carry that do not move, of which there must be some then.
+  double load = 0;
+  int max_iterations = 100000;  ///< of one evaluation of the force each
+  double step = 0;              ///< in s; 0: that of `stable_step`, kept up to date on the way
+  /// Whether particle i follows the forces. The others stay where they are. Empty: all follow.
+  std::function<bool(std::size_t)> moves = {};
+  /// Called after each evaluation of the force with what is known by then, to show that something happens, or to throw
+  /// where it takes too long. Empty: nothing is called.
+  std::function<void(const Relaxation&)> progress = {};
+};
+
 namespace detail {
 
 inline void validate(const RelaxationSettings& s) {
-  require(s.spacing > 0 && std::isfinite(s.spacing), "hmps: the spacing of relax is ", s.spacing,
+  require(detail::is_finite(s.spacing) && s.spacing > 0, "hmps: the spacing of relax is ", s.spacing,
           " m; give the particle spacing l0, by which force densities become forces");
-  require(s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of relax is ", s.tolerance,
-          "; it must lie between 0 and 1, for example 1e-3");
-  require(s.load >= 0 && std::isfinite(s.load), "hmps: the load of relax is ", s.load,
+  require(detail::is_finite(s.tolerance) && s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of relax is ",
+          s.tolerance, "; it must lie between 0 and 1, for example 1e-3");
+  require(detail::is_finite(s.load) && s.load >= 0, "hmps: the load of relax is ", s.load,
           " N; give the force that acts, or 0 for what the particles carry that do not move");
   require(s.max_iterations > 0, "hmps: relax may make ", s.max_iterations, " iterations; allow at least one");
-  require(s.step >= 0 && std::isfinite(s.step), "hmps: the step of relax is ", s.step,
+  require(detail::is_finite(s.step) && s.step >= 0, "hmps: the step of relax is ", s.step,
           " s; it must be positive, or 0 for that of stable_step");
 }
 
@@ -95,7 +99,7 @@ class RelaxationStep {
     StableStep found = stable_step(force, x, v, density, search_, execute);
     evaluations_ += found.evaluations;
     ++search_.seed;
-    require(std::isfinite(found.step), "hmps: relax finds no stiffness in the force; give it a `step`");
+    require(detail::is_finite(found.step), "hmps: relax finds no stiffness in the force; give it a `step`");
     const bool steady = std::abs(found.step - step_) < 0.02 * step_;
     path_ = steady ? std::min(2 * path_, 10 * shortest_) : shortest_;
     left_ = path_;
@@ -115,7 +119,7 @@ class RelaxationStep {
 template <class F, int D>
 [[noreturn]] void throw_not_finite(const VectorView<F, D>& f, const std::vector<char>& counts, int iteration) {
   std::size_t i = 0;
-  while (i + 1 < f.size() && (!counts[i] || std::isfinite(f[i].template cast<double>().sum()))) ++i;
+  while (i + 1 < f.size() && (!counts[i] || detail::is_finite(f[i].template cast<double>().sum()))) ++i;
   throw StateError(message("hmps: iteration ", iteration, " of relax finds a force on particle ", i,
                            " that is not finite, ", f[i].transpose(),
                            " N/m3; apply the load in parts, each relaxed before the next, or give a smaller step; "
@@ -161,8 +165,12 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
                 "force densities");
   const std::size_t n = x.size();
   detail::validate(settings);
+  require(n > 0, "hmps: relax was given no particle");
   require_size(v, n, "velocities");
   require_size(f, n, "force densities");
+  require_apart(x, "positions", v, "velocities");
+  require_apart(x, "positions", f, "force densities");
+  require_apart(v, "velocities", f, "force densities");
   require_positive(rho, n, "density", "kg/m3");
   require_finite(x, "the position");
   const auto moves = [&](std::size_t i) { return !settings.moves || settings.moves(i); };
@@ -213,10 +221,12 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
     ++result.evaluations;
     const detail::Unbalanced sums = unbalanced();
     const double carried = settings.load > 0 ? settings.load : sums.held * volume;
-    if (!std::isfinite(sums.moving + sums.power + carried))
+    if (!detail::is_finite(sums.moving + sums.power + carried))
       detail::throw_not_finite(f, settings.load > 0 ? follows : std::vector<char>(n, 1), result.iterations);
     result.load = carried;
     result.residual = sums.moving > 0 ? sums.moving * volume / carried : 0.0;
+    result.step = step.value();
+    if (settings.progress) settings.progress(result);
 
     const bool balanced = result.residual <= settings.tolerance;
     if (balanced && at_rest) break;

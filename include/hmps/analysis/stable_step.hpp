@@ -16,10 +16,13 @@
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
+
+struct StableStep;
 
 /// How `stable_step` looks for the largest stable step.
 struct StableStepSettings {
@@ -34,6 +37,9 @@ struct StableStepSettings {
   int refresh_iterations = 4;  ///< made at least when there is a `start`
   /// Whether particle i follows the forces; those with a forced displacement do not. Empty: all do.
   std::function<bool(std::size_t)> moves = {};
+  /// Called after each iteration with what is known by then (limit, residual, iterations), to show that something
+  /// happens, or to throw where it takes too long. Empty: nothing is called.
+  std::function<void(const StableStep&)> progress = {};
 };
 
 /// The largest stable step of a scene and what limits it.
@@ -57,16 +63,17 @@ struct StableStep {
 namespace detail {
 
 inline void validate(const StableStepSettings& s) {
-  require(s.spacing > 0 && std::isfinite(s.spacing), "hmps: the spacing of stable_step is ", s.spacing,
+  require(detail::is_finite(s.spacing) && s.spacing > 0, "hmps: the spacing of stable_step is ", s.spacing,
           " m; give the particle spacing l0, which sets the size of its trial displacements");
-  require(s.margin >= 0 && s.margin < 1, "hmps: the margin of stable_step is ", s.margin, "; it must lie in [0, 1)");
-  require(s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of stable_step is ", s.tolerance,
-          "; it must lie between 0 and 1, for example 0.02");
+  require(detail::is_finite(s.margin) && s.margin >= 0 && s.margin < 1, "hmps: the margin of stable_step is ", s.margin,
+          "; it must lie in [0, 1)");
+  require(detail::is_finite(s.tolerance) && s.tolerance > 0 && s.tolerance < 1,
+          "hmps: the tolerance of stable_step is ", s.tolerance, "; it must lie between 0 and 1, for example 0.02");
   require(s.max_iterations > 0, "hmps: stable_step may make ", s.max_iterations, " iterations; allow at least one");
   require(s.refresh_iterations > 0, "hmps: a refresh of stable_step makes ", s.refresh_iterations,
           " iterations; allow at least one");
-  require(s.perturbation >= 0 && s.perturbation < 0.1, "hmps: the perturbation of stable_step is ", s.perturbation,
-          " spacings; it must lie in [0, 0.1)");
+  require(detail::is_finite(s.perturbation) && s.perturbation >= 0 && s.perturbation < 0.1,
+          "hmps: the perturbation of stable_step is ", s.perturbation, " spacings; it must lie in [0, 0.1)");
 }
 
 /// The length in m of trial displacements of positions in `T`.
@@ -150,8 +157,8 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   detail::Direction<D> best(n), descent(n), previous(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (int c = 0; c < D; ++c)
-      best.y[i][c] = detail::noise(settings.seed * 0x100000001b3u + static_cast<std::uint64_t>(i) * D +
-                                   static_cast<std::uint64_t>(c));
+      best.y[i][c] =
+          detail::noise(settings.seed * 0x100000001b3u + std::uint64_t{i} * D + static_cast<std::uint64_t>(c));
     if (!moves(i)) best.y[i].setZero();
   }
   if (!settings.start.empty()) {
@@ -183,7 +190,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
     c = scene.damped() ? scene.dot(best.y, best.damping) : 0.0;
     const double dt = detail::step_limit(k, c);
     result.limit = dt;
-    if (!std::isfinite(dt)) {
+    if (!detail::is_finite(dt)) {
       // Neither stiffness nor damping answers to noise: nothing limits the step.
       result.converged = true;
       result.residual = 0;
@@ -196,6 +203,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
     };
     execute(n, [&](std::size_t i) { descent.y[i] = image(best, i) - 4.0 * best.y[i]; });
     result.residual = std::sqrt(scene.dot(descent.y, descent.y)) / 4;
+    if (settings.progress) settings.progress(result);
     const bool settled =
         result.residual < settings.tolerance && (result.iterations >= least || result.residual < exact);
     if (settled || result.iterations >= settings.max_iterations) {
@@ -221,7 +229,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
     // Rayleigh-Ritz in the span of the three.
     std::array<const detail::Direction<D>*, 3> basis{&best, &descent, &previous};
     const int dimension = have_previous ? 3 : 2;
-    Matrix<double, 3> small = Matrix<double, 3>::Zero();
+    Matrix<double, 3> projected = Matrix<double, 3>::Zero();
     for (int a = 0; a < 3; ++a) {
       for (int b = 0; b <= a && a < dimension; ++b) {
         const auto& left = *basis[static_cast<std::size_t>(a)];
@@ -229,11 +237,12 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
         const auto entry = [&](const auto& p, const auto& q) {
           return dt * dt * scene.dot(p.y, q.stiffness) + (scene.damped() ? 2 * dt * scene.dot(p.y, q.damping) : 0.0);
         };
-        small(a, b) = small(b, a) = (entry(left, right) + entry(right, left)) / 2;
+        projected(a, b) = projected(b, a) = (entry(left, right) + entry(right, left)) / 2;
       }
-      if (a >= dimension) small(a, a) = -(std::abs(small(0, 0)) + std::abs(small(1, 1)));  // never the largest
+      if (a >= dimension)
+        projected(a, a) = -(std::abs(projected(0, 0)) + std::abs(projected(1, 1)));  // never the largest
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix<double, 3>> solver(small);
+    const Eigen::SelfAdjointEigenSolver<Matrix<double, 3>> solver(projected);
     const Vector<double, 3> weight = solver.eigenvectors().col(2);
     scene.blend(previous, have_previous ? weight[2] : 0.0, descent, weight[1]);
     scene.blend(best, weight[0], previous, 1.0);

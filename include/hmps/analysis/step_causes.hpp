@@ -14,6 +14,7 @@
 #include "hmps/analysis/stable_step.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
@@ -58,7 +59,7 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
   std::vector<StepCause> causes;
-  if (!std::isfinite(found.limit)) return causes;
+  if (!detail::is_finite(found.limit)) return causes;
   const double dt = found.limit;
   const Serial serial;
   const auto ask = [&](const std::string& name, auto& force) {

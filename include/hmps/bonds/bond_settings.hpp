@@ -7,6 +7,7 @@
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -23,9 +24,9 @@ struct BondSettings {
 
 namespace detail {
 inline void validate(const BondSettings& settings) {
-  require(settings.spacing > 0 && std::isfinite(settings.spacing), "hmps: the particle spacing is ", settings.spacing,
-          " m; it must be positive");
-  require(settings.radius_ratio > 0 && std::isfinite(settings.radius_ratio),
+  require(detail::is_finite(settings.spacing) && settings.spacing > 0, "hmps: the particle spacing is ",
+          settings.spacing, " m; it must be positive");
+  require(detail::is_finite(settings.radius_ratio) && settings.radius_ratio > 0,
           "hmps: the effective radius over the spacing is ", settings.radius_ratio,
           "; it must be positive (the paper has 1.75)");
 }

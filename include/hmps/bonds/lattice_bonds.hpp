@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,9 @@
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -44,7 +47,8 @@ class LatticeBonds : public Blocks<K, D> {
 
   /// Bonds all pairs of `reference` (m, any order, on one lattice) no further apart than the
   /// effective radius for which `bonded(i, j)` holds. Throws `InputError` for particles off the
-  /// lattice, coincident ones, and neighbourhoods that do not span space.
+  /// lattice, with the spacing that they seem to have, coincident ones, none at all, and neighbourhoods that do not
+  /// span space.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
   explicit LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
                         Weight&& weight = {})
@@ -119,7 +123,7 @@ class LatticeBonds : public Blocks<K, D> {
   }
 
   struct Offset {
-    K r0[D];
+    K r0[std::size_t{D}];
     K w;
   };
   struct Run {
@@ -133,6 +137,9 @@ class LatticeBonds : public Blocks<K, D> {
   [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
                                                              const BondSettings& settings) {
     detail::validate(settings);
+    require(reference.size() > 0,
+            "hmps: there are no particles to bond; look at what was to make them (shape, spacing, "
+            "removal of weak ones)");
     require_finite(reference, "the reference position");
     return {reference, settings.spacing};
   }
@@ -152,16 +159,18 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
-    auto near = cells_within(settings.radius_ratio);
+    auto around = cells_within(settings.radius_ratio);
     // By the axes, then in the order of the slots, so that the sweeps go through memory in one direction.
-    std::sort(near.begin(), near.end(), [&](const auto& a, const auto& b) {
+    std::sort(around.begin(), around.end(), [&](const auto& a, const auto& b) {
       return std::pair(axes_of(a), cells.key(a)) < std::pair(axes_of(b), cells.key(b));
     });
-    for (const auto& cell : near) {
+    for (const auto& cell : around) {
       Vector<double, D> r0;
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
       const double radius = settings.spacing * settings.radius_ratio;
       const double w = weight(std::min(r0.norm(), radius), radius);
+      require(detail::is_finite(w), "hmps: the weight at the distance ", r0.norm(), " m is ", w,
+              "; a weight function must be finite within the effective radius");
       if (!(w > 0)) continue;
       inside.add(r0, w);
       Offset& offset = offset_.emplace_back();
@@ -186,6 +195,10 @@ class LatticeBonds : public Blocks<K, D> {
     }
     require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", n, " particles make ",
             placed.size(), " runs, more than can be numbered; divide the body");
+    if (placed.empty() && n > 1) {  // else it is for the particle without neighbours to say
+      const std::string hint = detail::spacing_hint(reference, settings.spacing);
+      if (!hint.empty()) throw InputError("hmps: no two particles are near enough to be bonded" + hint);
+    }
     // From offset by offset to block by block: a counting sort keeps the order of the offsets.
     first_run_.assign(this->block_count() * directions + 1, 0);
     for (const Placed& p : placed) ++first_run_[p.group + 1];

@@ -7,12 +7,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -21,29 +24,34 @@ namespace detail {
 /// The cells of a simple cubic lattice that particles occupy, sorted row by row.
 template <int D>
 struct LatticeCells {
-  using Cell = std::array<std::int32_t, D>;
-  std::vector<Cell> cell;    ///< Cell of each particle.
-  std::vector<Index> order;  ///< The particles, sorted by cell.
-  std::array<int, D> axis;   ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.
+  using Cell = std::array<std::int32_t, std::size_t{D}>;
+  std::vector<Cell> cell;                ///< Cell of each particle.
+  std::vector<Index> order;              ///< The particles, sorted by cell.
+  std::array<int, std::size_t{D}> axis;  ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.
 
   template <class T>
   LatticeCells(const VectorView<T, D>& reference, double spacing) : cell(reference.size()), order(reference.size()) {
     for (std::size_t i = 0; i < cell.size(); ++i)
       for (int c = 0; c < D; ++c) {
         const double place = (double(reference(i, c)) - double(reference(0, c))) / spacing;
-        require(std::abs(place) < 1e6, "hmps: particle ", i, " lies ", place,
-                " spacings from particle 0; a lattice may span 1e6");
+        if (!is_finite(place) || std::abs(place) >= 1e6)
+          throw InputError(message("hmps: particle ", i, " lies ", place,
+                                   " spacings from particle 0; a lattice may span 1e6",
+                                   spacing_hint(reference, spacing)));
         const double nearest = std::round(place);
-        require(std::abs(place - nearest) < 1e-3, "hmps: component ", c, " of particle ", i, " lies ", place,
-                " spacings from particle 0, not on the cubic lattice; use BondList for a cloud that is no lattice");
+        if (std::abs(place - nearest) >= 1e-3)
+          throw InputError(message("hmps: component ", c, " of particle ", i, " lies ", place,
+                                   " spacings from particle 0, not on the cubic lattice",
+                                   not_this_lattice(reference, spacing)));
         cell[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(nearest);
       }
     std::iota(order.begin(), order.end(), Index{0});
     choose_axes();
     std::sort(order.begin(), order.end(), [this](Index a, Index b) { return key(cell[a]) < key(cell[b]); });
     for (std::size_t s = 1; s < order.size(); ++s)
-      require(cell[order[s]] != cell[order[s - 1]], "hmps: particles ", order[s - 1], " and ", order[s],
-              " lie at the same place; remove one of them");
+      if (cell[order[s]] == cell[order[s - 1]])
+        throw InputError(message("hmps: particles ", order[s - 1], " and ", order[s],
+                                 " lie at the same place; remove one of them", spacing_hint(reference, spacing)));
   }
 
   /// A number that orders cells row by row; that of a cell plus an offset is the sum of both.
@@ -55,11 +63,19 @@ struct LatticeCells {
   }
 
  private:
+  /// What to do about particles that are not on the lattice of `spacing`.
+  template <class T>
+  [[nodiscard]] static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
+    const std::string hint = spacing_hint(reference, spacing);
+    return hint.empty() ? "; use BondList for a cloud that is no lattice"
+                        : hint + " For a cloud that is no lattice use BondList";
+  }
+
   /// Rows along the axis that makes the fewest of them, so that most neighbours of a block follow
   /// each other; planes across the longest axis, so that neighbouring planes are close in memory.
   void choose_axes() {
-    std::array<std::size_t, D> rows{};
-    std::array<std::int32_t, D> extent{};
+    std::array<std::size_t, std::size_t{D}> rows{};
+    std::array<std::int32_t, std::size_t{D}> extent{};
     for (int d = 0; d < D; ++d) {
       std::iota(axis.begin(), axis.end(), 0);
       std::swap(axis[static_cast<std::size_t>(d)], axis[D - 1]);

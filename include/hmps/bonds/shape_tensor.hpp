@@ -7,6 +7,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -35,8 +36,9 @@ struct ShapeTensor {
     for (int d = 0; d < D; ++d) volume *= mean;
     // The determinant over that of a ball of the same trace: 1 for a full neighbourhood, 0.5 for a
     // flat surface, 0 when all bonds lie in a plane or on a line.
-    require(neighbours >= D && mean > 0 && A.determinant() > 1e-4 * volume, "hmps: particle ", particle, " has ",
-            neighbours, neighbours == 1 ? " neighbour that does" : " neighbours that do", " not span the ", D,
+    require(neighbours >= D && detail::is_finite(mean) && mean > 0 && A.determinant() > 1e-4 * volume,
+            "hmps: particle ", particle, " has ", neighbours,
+            neighbours == 1 ? " neighbour that does" : " neighbours that do", " not span the ", D,
             "D space, so that it has no deformation gradient; remove weakly supported particles, fill the gap, or "
             "enlarge the "
             "radius");

@@ -11,6 +11,12 @@
 
 #include "hmps/core/inline.hpp"
 
+#include "hmps/core/language.hpp"
+
+#if defined(min) || defined(max)
+#error "hmps: min and max are macros: define NOMINMAX before <windows.h> is included"
+#endif
+
 namespace hmps {
 
 /// Base of every exception that the library throws. The message names the particle, the value

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
@@ -14,10 +15,10 @@ namespace hmps::inline HMPS_ABI {
 // type or a pack of lanes: only + - * / and functions found by argument-dependent lookup are used,
 // and no branch depends on a value. All of it is inlined, so that packs stay in registers.
 
-/// `x` to the power -1/3. Packs of lanes bring their own overload. For `x < 0` the real root.
+/// `x` to the power -1/3: NaN for `x <= 0`, as in packs of lanes, which bring their own overload.
 template <class T>
 requires std::is_floating_point_v<T>
-[[nodiscard]] T inverse_cube_root(T x) { return T(1) / std::cbrt(x); }
+[[nodiscard]] T inverse_cube_root(T x) { return x > T(0) ? T(1) / std::cbrt(x) : std::numeric_limits<T>::quiet_NaN(); }
 
 /// `yes` where `mask` holds, `no` elsewhere: the branch of code that also runs on packs of lanes.
 template <class T>

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -39,13 +40,13 @@ template <PerParticle Q>
 template <PerParticle Q>
 void require_positive(const Q& quantity, std::size_t size, const char* name, const char* unit) {
   if constexpr (std::is_arithmetic_v<Q>) {
-    require(quantity > Q(0) && std::isfinite(static_cast<double>(quantity)), "hmps: the ", name, " is ", quantity, " ",
-            unit, "; it must be positive and finite");
+    require(detail::is_finite(quantity) && quantity > Q(0), "hmps: the ", name, " is ", quantity, " ", unit,
+            "; it must be positive and finite");
   } else {
     require_size(quantity, size, name);
     for (std::size_t i = 0; i < size; ++i) {
       const double value = static_cast<double>(quantity[i]);
-      require(value > 0 && std::isfinite(value), "hmps: the ", name, " of particle ", i, " is ", value, " ", unit,
+      require(detail::is_finite(value) && value > 0, "hmps: the ", name, " of particle ", i, " is ", value, " ", unit,
               "; it must be positive and finite");
     }
   }

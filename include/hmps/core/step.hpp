@@ -6,18 +6,19 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `InputError` unless `dt` (s) is a time step.
 inline void require_step(double dt) {
-  require(dt > 0 && std::isfinite(dt), "hmps: the time step is ", dt,
+  require(detail::is_finite(dt) && dt > 0, "hmps: the time step is ", dt,
           " s; it must be positive and finite (stable_step estimates the largest stable one)");
 }
 /// One component of the velocity of one particle, under the force density f: v + f dt / rho.
 template <class T, class U, class Rho>
 void kick(T& v, U f, Rho rho, double dt) {
   using Real = std::common_type_t<T, U>;
-  v = static_cast<T>(v + static_cast<Real>(dt / static_cast<double>(rho)) * f);
+  v = static_cast<T>(Real{v} + static_cast<Real>(dt / static_cast<double>(rho)) * Real{f});
 }
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/language.hpp"
+
 #include <Eigen/Core>
 #include <cstdint>
 

@@ -54,6 +54,7 @@ template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E 
 [[nodiscard]] Axial<D> angular_momentum(const VectorView<X, D>& x, const VectorView<T, D>& v, const Rho& density,
                                         const Vol& volume, const Vector<double, D>& about = Vector<double, D>::Zero(),
                                         const E& execute = {}) {
+  require_view(x, "positions");
   require_size(v, x.size(), "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
   require_positive(volume, v.size(), "volume", "m3");

@@ -11,6 +11,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/view.hpp"
 
@@ -68,7 +69,7 @@ template <class T, int N>
                                    double& value) {
   for (int c = 0; c < N; ++c) {
     value = static_cast<double>(view(i, c));
-    if (!std::isfinite(value)) {
+    if (!is_finite(value)) {
       found = message("component ", c, " of its ", name, " is ", value);
       return true;
     }
@@ -78,7 +79,7 @@ template <class T, int N>
 
 [[nodiscard]] inline std::string fault_place(const StateLimits& limits, std::size_t particle) {
   std::string place = "hmps: ";
-  if (!std::isnan(limits.time)) place += message("at t = ", limits.time, " s ");
+  if (!is_nan(limits.time)) place += message("at t = ", limits.time, " s ");
   place += message("particle ", particle);
   if (limits.organ_name) place += " of " + limits.organ_name(particle);
   return place + ": ";
@@ -87,15 +88,17 @@ template <class T, int N>
 template <class X, class V, class FView, int D, class E>
 [[nodiscard]] std::optional<Fault> find_fault(const VectorView<X, D>& x, const VectorView<V, D>& v, const FView* F,
                                               const StateLimits& limits, const E& execute) {
+  require_view(x, "positions");
   require_size(v, x.size(), "velocities");
+  require(!is_nan(limits.speed_limit), "hmps: the speed limit is NaN; give a positive number of m/s");
   if (F != nullptr) require_size(*F, x.size(), "deformation gradients");
   const auto survey = [&](std::size_t i) {
     StateSurvey s;
     const double sum = x[i].template cast<double>().sum(), speed = v[i].template cast<double>().squaredNorm();
-    bool finite = std::isfinite(sum) && std::isfinite(speed);
+    bool finite = is_finite(sum) && is_finite(speed);
     if (F != nullptr) {
       const Matrix<double, D> gradient = (*F)[i].template cast<double>();
-      finite = finite && std::isfinite(gradient.sum());
+      finite = finite && is_finite(gradient.sum());
       s.jacobian = determinant(gradient);
       s.most_crushed = i;
     }

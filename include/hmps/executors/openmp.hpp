@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 
@@ -13,12 +14,20 @@ namespace hmps::inline HMPS_ABI {
 
 /// Executor on OpenMP threads; opt-in: compile and link with OpenMP yourself. An exception thrown
 /// by a body reaches the caller after the loop.
+///
+/// The threads of most OpenMP runtimes spin while they wait for each other. On a machine that is busy with other
+/// programs they take the time from each other (two threads four times as slow as one, on two cores with a load of six,
+/// and as fast as one with OMP_WAIT_POLICY=passive): leave a core to what else runs, or start the program with
+/// OMP_WAIT_POLICY=passive, which a header cannot set.
 struct OpenMP {
-  int threads = omp_get_max_threads();  ///< Number of threads, at least 1.
+  int threads = omp_get_max_threads();  ///< Number of threads, from 1 to `most_threads()`.
 
   template <class Body>
   void operator()(std::size_t n, Body&& body) const {
     require(threads >= 1, "hmps: the number of OpenMP threads is ", threads, "; it must be at least 1");
+    require(threads <= most_threads(), "hmps: the number of OpenMP threads is ", threads, ", but there are ",
+            omp_get_num_procs(), " processors, for which ", most_threads(),
+            " are the most that are started: more only wait for each other; look at OMP_NUM_THREADS");
     std::exception_ptr failure;
     const auto end = static_cast<std::ptrdiff_t>(n);
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -31,6 +40,12 @@ struct OpenMP {
       }
     }
     if (failure) std::rethrow_exception(failure);
+  }
+
+  /// Four threads per processor that the program may use, or 16 on a small machine.
+  [[nodiscard]] static int most_threads() {
+    static const int most = std::max(16, 4 * omp_get_num_procs());
+    return most;
   }
 };
 

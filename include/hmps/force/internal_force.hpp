@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
+#include "hmps/bonds/followed_bonds.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
@@ -26,9 +27,9 @@ namespace hmps::inline HMPS_ABI {
 /// named is not computed; where no term couples, the first sweep is left out, where none damps, no
 /// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond.
 ///
-/// Keeps a reference to the bonds, which must outlive it, and scratch memory, but no state: one
-/// object serves any number of states in turn (not at the same time). `restrict_to` leaves out what
-/// only particles with a forced displacement would need.
+/// Refers to the bonds, which must outlive it and may be moved (in a `std::vector` of bodies, say), and keeps scratch
+/// memory, but no state: one object serves any number of states in turn (not at the same time). `restrict_to` leaves
+/// out what only particles with a forced displacement would need.
 template <Bonds B, class... Terms>
 class InternalForce {
  public:
@@ -48,13 +49,15 @@ class InternalForce {
 
  public:
   explicit InternalForce(const B& bonds, Terms... terms)
-      : bonds_(&bonds),
+      : followed_(bonds),
+        bonds_(&bonds),
         terms_(std::move(terms)...),
         displacement_(bonds.slot_count()),
         velocity_(bonds.slot_count()),
         coupling_(bonds.slot_count()),
         dilatation_(bonds.slot_count()),
         pressure_(bonds.slot_count()) {
+    std::apply([&](const auto&... term) { (check(term), ...); }, terms_);
     if constexpr (damps) {
       double sum = 0;
       std::apply([&](const auto&... term) { (add_damping(term, sum), ...); }, terms_);
@@ -70,6 +73,7 @@ class InternalForce {
   template <class Moves>
   requires std::predicate<Moves&, std::size_t>
   void restrict_to(Moves&& moves) {
+    bonds_ = &bonds();
     std::vector<char> moving(bonds_->size());
     for (std::size_t i = 0; i < moving.size(); ++i) moving[i] = moves(i) ? 1 : 0;
     summed_ = blocks_of(moving);
@@ -89,7 +93,11 @@ class InternalForce {
   template <class X, class V, class F, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                   const E& execute = {}) {
+    bonds_ = &bonds();
     require_size(f, bonds_->size(), "forces");
+    require_sizes(x, v);
+    require_apart(f, "forces", x, "positions");
+    require_apart(f, "forces", v, "velocities");
     evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
       detail::deliver(*bonds_, block, f, force);
     });
@@ -108,7 +116,10 @@ class InternalForce {
   template <class X, class V, PerParticle Rho, Executor E = Serial>
   void kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& rho, double dt, const E& execute = {}) {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
+    bonds_ = &bonds();
     require_positive(rho, v.size(), "density", "kg/m3");
+    require_sizes(x, v);
+    require_apart(v, "velocities", x, "positions");
     detail::require_step(dt);
     // Other blocks read the velocities of the staged copy, so that these may change while they do.
     evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
@@ -118,7 +129,8 @@ class InternalForce {
     });
   }
 
-  [[nodiscard]] const B& bonds() const { return *bonds_; }
+  /// The bonds, wherever they are now. Throws `InputError` if they are no more.
+  [[nodiscard]] const B& bonds() const { return followed_.now(); }
   /// Bytes of scratch memory.
   [[nodiscard]] std::size_t bytes() const {
     return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + dilatation_.bytes() + pressure_.bytes() +
@@ -126,12 +138,21 @@ class InternalForce {
   }
 
  private:
+  template <class Term>
+  void check(const Term& term) const {
+    if constexpr (requires { term.check(bonds_->size()); }) term.check(bonds_->size());
+  }
+
+  template <class X, class V>
+  void require_sizes(const VectorView<X, D>& x, const VectorView<V, D>& v) const {
+    require_size(x, bonds_->size(), "positions");
+    require_size(v, bonds_->size(), "velocities");
+  }
+
   /// All sweeps at positions `x` and velocities `v`; the last calls `take(block, force)` with what gives the lanes of
   /// each component of the force density.
   template <class X, class V, class E, class Take>
   void evaluate(const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
-    require_size(x, bonds_->size(), "positions");
-    require_size(v, bonds_->size(), "velocities");
     const Vector<double, D> common = detail::common_displacement(*bonds_, x);
     execute(bonds_->block_count(), [&](std::size_t block) {
       if constexpr (couples) detail::stage_displacement(*bonds_, block, x, common, displacement_);
@@ -300,7 +321,8 @@ class InternalForce {
   /// How far ahead of what a block needs memory is asked for: some hundred nanoseconds of work.
   static constexpr std::size_t ahead = 4 * B::width;
 
-  const B* bonds_;
+  detail::FollowedBonds<B> followed_;
+  const B* bonds_;  // where they were last seen
   std::tuple<Terms...> terms_;
   typename B::template Slots<std::size_t{couples ? D : 0}> displacement_;
   typename B::template Slots<std::size_t{damps ? D : 0}> velocity_;

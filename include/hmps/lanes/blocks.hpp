@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/anchored.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/lanes.hpp"
@@ -23,7 +24,7 @@ namespace hmps::inline HMPS_ABI {
 /// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
 /// slots. Holds what both models of bonds share: the reference configuration (\paper{12}).
 template <class K, int D>
-class Blocks {
+class Blocks : public detail::Anchored {
  public:
   using Scalar = K;
   static constexpr int dimension = D;

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -56,7 +57,7 @@ template <class K, int D, class T>
   const Index i = blocks.particle(blocks.size() / 2);
   for (int c = 0; c < D; ++c) {
     const double u = static_cast<double>(x(i, c)) - blocks.reference(i, c);
-    if (std::isfinite(u)) common[c] = u;
+    if (detail::is_finite(u)) common[c] = u;
   }
   return common;
 }

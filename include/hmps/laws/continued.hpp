@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/laws/invariants.hpp"
 #include "hmps/laws/law.hpp"
 
@@ -41,7 +42,7 @@ struct Continued {
   /// Throws `InputError` unless the law is valid and 0 < `j_min` < 1.
   void validate() const requires std::is_arithmetic_v<P> {
     law.validate();
-    require(j_min > P(0) && j_min < P(1), "hmps: j_min of Continued is ", j_min,
+    require(detail::is_finite(j_min) && j_min > P(0) && j_min < P(1), "hmps: j_min of Continued is ", j_min,
             "; it must lie between 0 and 1, for example 0.2");
   }
 

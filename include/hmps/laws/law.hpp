@@ -7,6 +7,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 
@@ -95,7 +96,8 @@ template <class Law, class P>
   static_assert(
       requires { law.bulk_modulus() + law.shear_modulus(); },
       "hmps: the sound speed needs a law with bulk_modulus() and shear_modulus()");
-  require(density > P(0), "hmps: the density is ", density, " kg/m3; it must be positive (soft tissue: about 1000)");
+  require(detail::is_finite(density) && density > P(0), "hmps: the density is ", density,
+          " kg/m3; it must be positive (soft tissue: about 1000)");
   return std::sqrt((law.bulk_modulus() + law.shear_modulus() * P(4) / P(3)) / density);
 }
 
@@ -104,7 +106,7 @@ namespace detail {
 /// Throws `InputError` unless the modulus `value` is positive and finite.
 template <class P>
 void require_modulus(P value, const char* law, const char* name, const char* remedy) {
-  require(value > P(0) && value - value == P(0), "hmps: the ", name, " of ", law, " is ", value,
+  require(is_finite(value) && value > P(0), "hmps: the ", name, " of ", law, " is ", value,
           " Pa; it must be positive and finite: ", remedy);
 }
 

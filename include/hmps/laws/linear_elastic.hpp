@@ -25,6 +25,10 @@ struct LinearElastic {
     const P two_mu = young / (P(1) + poisson);
     return {two_mu * poisson / (P(1) - P(2) * poisson), two_mu / P(2)};
   }
+  /// The same, under the name that means the same in every law.
+  [[nodiscard]] static LinearElastic from_young_poisson(P young, P poisson) { return from_young(young, poisson); }
+  /// The law with the bulk modulus `bulk` and the shear modulus `shear` in Pa.
+  [[nodiscard]] static LinearElastic from_moduli(P bulk, P shear) { return {bulk - shear * P(2) / P(3), shear}; }
 
   [[nodiscard]] P bulk_modulus() const { return lambda + mu * P(2) / P(3); }
   [[nodiscard]] P shear_modulus() const { return mu; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
@@ -32,10 +33,21 @@ struct MooneyRivlin {
   P d1;  ///< D1 in Pa, half the bulk modulus
 
   /// The law with Young's modulus `young` in Pa at zero strain by \paper{18}, E = 6 (C1 + C2), the
-  /// volumetric constant `d1` in Pa and the `ratio` C1 / C2 (the paper: 1).
+  /// volumetric constant `d1` in Pa and the `ratio` C1 / C2 (the paper: 1). The second number of the
+  /// other laws' `from_young` is Poisson's ratio: `from_young_poisson` means the same in all.
   [[nodiscard]] static MooneyRivlin from_young(P young, P d1, P ratio = P(1)) {
     const P c2 = young / (P(6) * (P(1) + ratio));
     return {ratio * c2, c2, d1};
+  }
+  /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson` at zero strain, both exact
+  /// (E = 9 K G / (3 K + G), not that of \paper{18}), and the `ratio` C1 / C2.
+  [[nodiscard]] static MooneyRivlin from_young_poisson(P young, P poisson, P ratio = P(1)) {
+    return from_moduli(young / (P(3) * (P(1) - P(2) * poisson)), young / (P(2) * (P(1) + poisson)), ratio);
+  }
+  /// The law with the bulk modulus `bulk` and the shear modulus `shear` in Pa at zero strain, and the `ratio` C1 / C2.
+  [[nodiscard]] static MooneyRivlin from_moduli(P bulk, P shear, P ratio = P(1)) {
+    const P c2 = shear / (P(2) * (P(1) + ratio));
+    return {ratio * c2, c2, bulk / P(2)};
   }
 
   /// Young's modulus in Pa at zero strain by \paper{18}; exact for an incompressible material. The
@@ -46,13 +58,21 @@ struct MooneyRivlin {
   /// The shear modulus in Pa at zero strain, 2 (C1 + C2).
   [[nodiscard]] P shear_modulus() const { return P(2) * (c1 + c2); }
 
-  /// Throws `InputError` unless C1 + C2 and D1 are positive and finite. One of C1, C2 may be
-  /// negative, as it comes out of some fits.
+  /// Throws `InputError` unless C1 + C2 and D1 are positive and finite, and where the bulk modulus 2 D1 is so small
+  /// against the shear modulus that Poisson's ratio is negative: no tissue is like that, but a D1 that is Poisson's
+  /// ratio, in MPa, or 2 / K as other programs have it. One of C1, C2 may be negative, as it comes out of some fits.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(shear_modulus(), "MooneyRivlin", "shear modulus 2 (C1 + C2)",
                             "give C1 + C2 > 0, or from_young with a positive Young's modulus");
     detail::require_modulus(d1, "MooneyRivlin", "volumetric constant D1",
                             "give half of the bulk modulus, for soft tissue about 1e6 Pa");
+    const P K = bulk_modulus(), G = shear_modulus();
+    // A ratio of zero itself, K = 2 G / 3, may come out of rounding.
+    require(P(3) * K >= P(2) * G * (P(1) - P(16) * std::numeric_limits<P>::epsilon()),
+            "hmps: the volumetric constant D1 of MooneyRivlin is ", d1, " Pa, so that the bulk modulus 2 D1 is ", K,
+            " Pa beside a shear modulus of ", G, " Pa, and Poisson's ratio ",
+            (P(3) * K - P(2) * G) / (P(6) * K + P(2) * G),
+            "; give D1 in Pa, half of the bulk modulus (for soft tissue about 1e6 Pa), or use from_young_poisson");
   }
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F and J = det F > 0.

@@ -25,6 +25,10 @@ struct NeoHookean {
   [[nodiscard]] static NeoHookean from_young(P young, P poisson) {
     return {young / (P(2) * (P(1) + poisson)), young / (P(3) * (P(1) - P(2) * poisson))};
   }
+  /// The same, under the name that means the same in every law.
+  [[nodiscard]] static NeoHookean from_young_poisson(P young, P poisson) { return from_young(young, poisson); }
+  /// The law with the bulk modulus `bulk` and the shear modulus `shear` in Pa at zero strain.
+  [[nodiscard]] static NeoHookean from_moduli(P bulk, P shear) { return {shear, bulk}; }
 
   [[nodiscard]] P bulk_modulus() const { return kappa; }
   [[nodiscard]] P shear_modulus() const { return mu; }

@@ -12,6 +12,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/motion/rigid_motion.hpp"
@@ -30,10 +31,12 @@ template <class S, int D, class M = std::function<Pose<double, D>(double)>>
 requires Motion<M, D>
 class ControlRegion {
  public:
-  /// Throws `InputError` for an index beyond the view, one given twice, or a reference position
-  /// that is not finite.
+  /// Throws `InputError` for a region without particles, an index beyond the view, one given twice, or a reference
+  /// position that is not finite.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
+    require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
+    require_view(reference, "reference positions");
     std::vector<Index> sorted = particles_;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k < sorted.size(); ++k) {
@@ -41,7 +44,7 @@ class ControlRegion {
               reference.size(), "; give indices into the view of reference positions");
       require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
               " twice; name each once");
-      require(reference[sorted[k]].allFinite(), "hmps: the reference position of particle ", sorted[k], " is (",
+      require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k], " is (",
               reference[sorted[k]].transpose(), "); give finite metres");
     }
   }
@@ -49,8 +52,11 @@ class ControlRegion {
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
   [[nodiscard]] const M& motion() const { return motion_; }
 
-  /// The prescribed position of the `k`-th particle of the region at time `t` (s).
+  /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` for a `k` that
+  /// it does not have.
   [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
+    require(k < particles_.size(), "hmps: the place of particle ", k, " of a control region is asked for, but it has ",
+            particles_.size(), " particles, counted from 0");
     return motion_(t)(reference_[particles_[k]].template cast<double>());
   }
 
@@ -65,8 +71,12 @@ class ControlRegion {
   template <class X, class V, Executor E = Serial>
   void prescribe(double t_next, double dt, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute = {},
                  double speed_limit = std::numeric_limits<double>::max()) const {
-    require(std::isfinite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
+    require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
             " s; give a positive step");
+    require(detail::is_finite(t_next), "hmps: a control region is moved to the time ", t_next,
+            " s; give finite seconds");
+    require(!detail::is_nan(speed_limit), "hmps: the speed limit of a control region is ", speed_limit,
+            " m/s; give a positive number, or leave it out");
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
     const auto pose = motion_(t_next);
@@ -75,7 +85,8 @@ class ControlRegion {
       const std::size_t i = particles_[k];
       const Vector<double, D> target = pose(Vector<double, D>(reference_[i].template cast<double>()));
       const Vector<double, D> rate = (target - x[i].template cast<double>()) * per_step;
-      if (!(rate.squaredNorm() <= largest))
+      const double squared = rate.squaredNorm();
+      if (!detail::is_finite(squared) || squared > largest)
         throw StateError(message("hmps: a control region asks particle ", i, " for ", rate.norm(), " m/s to be at (",
                                  target.transpose(), ") at ", t_next,
                                  " s; check its keyframes, or place the region where the run starts"));

@@ -11,6 +11,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -41,11 +42,11 @@ class Keyframes {
   explicit Keyframes(std::vector<Keyframe<N>> keys) : keys_(std::move(keys)), slopes_(keys_.size(), zero()) {
     require(!keys_.empty(), "hmps: a track has no keyframe; give at least one time and value");
     for (std::size_t k = 0; k < keys_.size(); ++k) {
-      require(std::isfinite(keys_[k].time), "hmps: keyframe ", k, " has the time ", keys_[k].time,
+      require(detail::is_finite(keys_[k].time), "hmps: keyframe ", k, " has the time ", keys_[k].time,
               "; give finite seconds");
       for (int c = 0; c < N; ++c)
-        require(std::isfinite(at(keys_[k].value, c)), "hmps: component ", c, " of keyframe ", k, " at ", keys_[k].time,
-                " s is ", at(keys_[k].value, c), "; give finite values");
+        require(detail::is_finite(at(keys_[k].value, c)), "hmps: component ", c, " of keyframe ", k, " at ",
+                keys_[k].time, " s is ", at(keys_[k].value, c), "; give finite values");
       require(k == 0 || keys_[k - 1].time < keys_[k].time, "hmps: keyframe ", k, " at ", keys_[k].time,
               " s follows one at ", k == 0 ? 0.0 : keys_[k - 1].time,
               " s; sort the keyframes by time and give each time once");
@@ -55,8 +56,9 @@ class Keyframes {
   }
   Keyframes(std::initializer_list<Keyframe<N>> keys) : Keyframes(std::vector<Keyframe<N>>(keys)) {}
 
-  /// The value at `time` (s).
+  /// The value at `time` (s). Throws `InputError` for NaN.
   [[nodiscard]] Value value(double time) const {
+    require_time(time);
     if (!(time > keys_.front().time)) return keys_.front().value;
     if (time >= keys_.back().time) return keys_.back().value;
     const std::size_t k = piece(time);
@@ -69,8 +71,9 @@ class Keyframes {
   }
   [[nodiscard]] Value operator()(double time) const { return value(time); }
 
-  /// The derivative of the value with respect to time at `time` (s).
+  /// The derivative of the value with respect to time at `time` (s). Throws `InputError` for NaN.
   [[nodiscard]] Value rate(double time) const {
+    require_time(time);
     if (!(time > keys_.front().time) || time >= keys_.back().time) return zero();
     const std::size_t k = piece(time);
     const double h = keys_[k + 1].time - keys_[k].time;
@@ -94,6 +97,9 @@ class Keyframes {
       return value;
     else
       return value[c];
+  }
+  static void require_time(double time) {
+    require(!detail::is_nan(time), "hmps: a track is asked for its value at the time NaN; give seconds");
   }
   [[nodiscard]] std::size_t piece(double time) const {
     const auto above = std::upper_bound(keys_.begin(), keys_.end(), time,

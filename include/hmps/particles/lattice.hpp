@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
@@ -37,27 +39,69 @@ struct LatticeSites {
 /// millimetres or a box in micrometres.
 inline constexpr double most_sites = 8589934592.0;
 
+/// What the rounding of corners, origin and spacing to `S` can move a site of `box` against a face by, in m, with a
+/// margin: each is off by half a unit in the last place at most.
+template <class S, int D>
+[[nodiscard]] double coordinate_rounding(const Box<S, D>& box, const Vector<S, D>& origin) {
+  const S largest =
+      std::max({box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff(), origin.cwiseAbs().maxCoeff()});
+  return 8 * static_cast<double>(std::numeric_limits<S>::epsilon()) * static_cast<double>(largest);
+}
+
+/// Whether the sites of a lattice lie inside of a shape, by the rule for sites on its surface.
+template <class F, class S, int D>
+class InsideShape {
+ public:
+  InsideShape(const F& shape, const Box<S, D>& box, S spacing, const Vector<S, D>& origin)
+      : shape_(shape),
+        on_surface_(
+            static_cast<S>(std::max(1e-9 * static_cast<double>(spacing), coordinate_rounding<S, D>(box, origin)))) {
+    // Much further than the rounding; no two alike, so that also faces such as x = y are left on one side.
+    constexpr S share[3] = {S(8), S(6.5), S(5.25)};
+    for (int c = 0; c < D; ++c) aside_[c] = share[c] * on_surface_;
+  }
+  [[nodiscard]] bool operator()(const Vector<S, D>& x) const {
+    const S distance = value(x);
+    if (std::abs(distance) > on_surface_) return distance < S(0);
+    return value(Vector<S, D>(x + aside_)) < S(0);
+  }
+
+ private:
+  [[nodiscard]] S value(const Vector<S, D>& x) const {
+    const S distance = static_cast<S>(shape_(x));
+    if (is_nan(distance))
+      throw InputError(
+          message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+    return distance;
+  }
+  const F& shape_;
+  S on_surface_;        ///< m
+  Vector<S, D> aside_;  ///< m
+};
+
 template <class S, int D>
 [[nodiscard]] LatticeSites<D> lattice_sites(const Box<S, D>& box, S spacing, const Vector<S, D>& origin) {
-  require(std::isfinite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
+  require(detail::is_finite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
           "; give a positive number of metres");
-  require(origin.allFinite(), "hmps: the lattice origin is (", origin.transpose(), "); give finite metres");
-  require(box.lower.allFinite() && box.upper.allFinite() && (box.lower.array() <= box.upper.array()).all(),
-          "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
-          "); give finite corners in metres, the lower one first");
+  require(detail::all_finite(origin), "hmps: the lattice origin is (", origin.transpose(), "); give finite metres");
+  require(
+      detail::all_finite(box.lower) && detail::all_finite(box.upper) && (box.lower.array() <= box.upper.array()).all(),
+      "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+      "); give finite corners in metres, the lower one first");
   LatticeSites<D> sites;
   sites.spacing = static_cast<double>(spacing);
   sites.origin = origin.template cast<double>();
   // A box that ends on a site should hold it, whichever way its coordinates were rounded.
-  constexpr double slack = 1e-5;
+  const double slack = std::max(1e-5, coordinate_rounding<S, D>(box, origin) / sites.spacing);
   double product = 1;
   for (int c = 0; c < D; ++c) {
     const double low = std::ceil((static_cast<double>(box.lower[c]) - sites.origin[c]) / sites.spacing - slack);
     const double high = std::floor((static_cast<double>(box.upper[c]) - sites.origin[c]) / sites.spacing + slack);
     product *= std::max(high - low + 1, 0.0);
-    require(std::max(std::abs(low), std::abs(high)) < 9e15 && product <= most_sites, "hmps: the box holds about ",
-            product, " lattice sites of spacing ", spacing,
-            " m or more; give box and spacing in metres, or a larger spacing");
+    require(
+        is_finite(low) && is_finite(high) && std::max(std::abs(low), std::abs(high)) < 9e15 && product <= most_sites,
+        "hmps: the box holds about ", product, " lattice sites of spacing ", spacing,
+        " m or more; give box and spacing in metres, or a larger spacing");
     sites.first[c] = static_cast<std::int64_t>(low);
     sites.count[c] = static_cast<std::int64_t>(std::max(high - low + 1, 0.0));
   }
@@ -86,6 +130,11 @@ template <class S, int D, Executor E>
 /// coordinate runs fastest, so that rows along z are contiguous. Every site of the box is sampled
 /// once; slabs of constant x run through `execute`, and the result does not depend on it.
 ///
+/// Of sites on the surface, up to rounding, those on its lower sides are inside: where the distance is below 1e-9
+/// spacings, or a few units in the last place of the coordinates, it is taken a hair further on along x, y and z. A box
+/// of n spacings so holds n sites whatever the origin, in float too, and shapes that touch have no gap. A shape that
+/// knows inside and outside but no distance decides itself.
+///
 /// `spacing` in metres; the box need not touch sites. Throws `InputError` for a spacing that is not
 /// positive, a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, and a
 /// shape that returns NaN, with the position.
@@ -96,6 +145,7 @@ requires Shape<F, S, D>
     const std::type_identity_t<Vector<S, D>>& origin = Vector<S, D>::Zero(), const E& execute = {}) {
   static_assert(D == 2 || D == 3, "hmps: lattices have 2 or 3 dimensions");
   const auto sites = detail::lattice_sites<S, D>(box, spacing, origin);
+  const detail::InsideShape<F, S, D> inside(shape, box, spacing, origin);
   std::vector<std::vector<Vector<S, D>>> slabs(static_cast<std::size_t>(sites.count[0]));
   execute(slabs.size(), [&](std::size_t slab) {
     std::vector<Vector<S, D>> found;
@@ -104,12 +154,7 @@ requires Shape<F, S, D>
     const auto row = [&] {
       for (std::int64_t k = 0; k < sites.count[D - 1]; ++k) {
         x[D - 1] = static_cast<S>(sites.coordinate(D - 1, k));
-        const S distance = static_cast<S>(shape(x));
-        if (distance < S(0))
-          found.push_back(x);
-        else if (distance != distance)
-          throw InputError(
-              message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+        if (inside(x)) found.push_back(x);
       }
     };
     if constexpr (D == 3) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
@@ -13,9 +14,11 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -46,10 +49,11 @@ namespace detail {
 
 inline void validate(const SupportSettings& settings) {
   validate(BondSettings{settings.spacing, settings.radius_ratio});
-  require(settings.threshold >= 0 && std::isfinite(settings.threshold), "hmps: the support threshold is ",
+  require(detail::is_finite(settings.threshold) && settings.threshold >= 0, "hmps: the support threshold is ",
           settings.threshold, "; it must not be negative (0.75 suits the paper's radius)");
-  require(settings.smallest_piece >= 0 && settings.smallest_piece <= 1, "hmps: the smallest piece to keep is ",
-          settings.smallest_piece, " of all particles; give a share from 0 to 1");
+  require(detail::is_finite(settings.smallest_piece) && settings.smallest_piece >= 0 && settings.smallest_piece <= 1,
+          "hmps: the smallest piece to keep is ", settings.smallest_piece,
+          " of all particles; give a share from 0 to 1");
 }
 
 /// The neighbourhoods of a cloud that is about to lose particles.
@@ -120,7 +124,8 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 ///
 /// What is removed can be much of an organ one or two particles thick. Particles for which
 /// `keep(i)` holds are never removed, nor the piece that they are in; those of them that are weak
-/// are in `find_weak` of what is left. `thicken` fills up instead. Throws as `find_weak`.
+/// are in `find_weak` of what is left. `thicken` fills up instead. Throws as `find_weak`, and
+/// `InputError` where nothing would be left of a cloud, with the spacing that it seems to have.
 template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
 [[nodiscard]] std::vector<Index> remove_weak(const VectorView<T, D>& points, const SupportSettings& settings,
                                              const Keep& keep = {}, const Bonded& bonded = {}) {
@@ -169,6 +174,12 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
   std::vector<Index> left;
   for (std::size_t i = 0; i < n; ++i)
     if (present[i]) left.push_back(static_cast<Index>(i));
+  if (left.empty() && n > 0) {
+    const std::string hint = detail::spacing_hint(points, settings.spacing);
+    throw InputError(message("hmps: remove_weak leaves none of ", n,
+                             " particles: each is weakly supported, or of a small piece",
+                             hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));
+  }
   return left;
 }
 

@@ -33,7 +33,7 @@ namespace detail {
 template <int D>
 class SiteMap {
  public:
-  using Site = std::array<std::int32_t, D>;
+  using Site = std::array<std::int32_t, std::size_t{D}>;
 
   SiteMap(const Vector<double, D>& origin, const SupportSettings& settings)
       : origin_(origin), spacing_(settings.spacing), radius_(settings.radius_ratio) {
@@ -129,6 +129,8 @@ template <class T, int D, class Allowed = AllowEverywhere>
   using S = typename VectorView<T, D>::Scalar;
   using Map = detail::SiteMap<D>;
   detail::validate(settings);
+  require(settings.radius_ratio < 16, "hmps: the effective radius is ", settings.radius_ratio,
+          " spacings; on a lattice it must be below 16");
   require_finite(points, "the position");
   std::vector<Vector<S, D>> added;
   if (points.size() == 0) return added;

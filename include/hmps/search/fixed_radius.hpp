@@ -12,6 +12,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
@@ -52,6 +53,7 @@ struct PointSet {
 template <class S>
 class WithinRadius {
  public:
+  using DistanceType = S;  ///< nanoflann 1.6 and later ask for it, and for `sort`.
   WithinRadius(S squared_radius, std::vector<Index>& found) : squared_radius_(squared_radius), found_(found) {}
   [[nodiscard]] bool addPoint(S squared_distance, Index index) {
     if (squared_distance <= squared_radius_) found_.push_back(index);
@@ -63,7 +65,9 @@ class WithinRadius {
     return squared_radius_ * (1 + 16 * std::numeric_limits<S>::epsilon()) + std::numeric_limits<S>::min();
   }
   [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::size_t size() const { return found_.size(); }
+  void sort() {}  ///< `FixedRadiusSearch` sorts by index, whatever nanoflann asks for.
 
  private:
   S squared_radius_;
@@ -151,8 +155,7 @@ class FixedRadiusSearch {
 template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const FixedRadiusSearch<T, D>& search,
                                             typename VectorView<T, D>::Scalar radius, const E& execute = {}) {
-  using Scalar = typename VectorView<T, D>::Scalar;
-  require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
+  require(detail::is_finite(radius) && radius > 0, "hmps: the search radius is ", radius,
           "; it must be a positive number of metres");
   const VectorView<T, D>& points = search.points();
   const std::size_t n = points.size();

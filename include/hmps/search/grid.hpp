@@ -10,6 +10,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -25,10 +26,12 @@ class Grid {
 
   /// Sorts the points `position(k)`, `k` in `[0, n)`, into cells of edge `cell` in m (about the radius
   /// of the searches to come; larger where the points would need more than about 4 n cells).
-  /// Throws `InputError` on a point that is not finite and on a cell that is not positive.
+  /// Throws `InputError` on a point that is not finite, on points whose distance is not, and on a cell that is not
+  /// positive.
   template <class Position>
   void build(std::size_t n, S cell, Position&& position) {
-    require(cell > 0 && std::isfinite(cell), "hmps: the cell of a search grid is ", cell, " m; give a positive radius");
+    require(detail::is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell,
+            " m; give a positive radius");
     require(n < std::numeric_limits<Index>::max(), "hmps: ", n, " points are more than a 32-bit index can number");
     raw_.resize(n);
     lowest_ = Point::Constant(std::numeric_limits<S>::max());
@@ -36,7 +39,7 @@ class Grid {
     for (std::size_t k = 0; k < n; ++k) {
       const Point p = position(k);
       for (int c = 0; c < D; ++c)
-        require(std::isfinite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
+        require(detail::is_finite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
                 "; every component must be a finite number");
       raw_[k] = p;
       lowest_ = lowest_.cwiseMin(p);
@@ -51,6 +54,8 @@ class Grid {
       return;
     }
     const Point extent = highest - lowest_;
+    require(detail::all_finite(extent), "hmps: the points of a search grid span more than ",
+            std::numeric_limits<S>::max(), " m; look for positions that are no lengths in metres");
     double count = 0;
     for (const double most = 4. * static_cast<double>(n) + 64;; cell *= S(1.26)) {
       count = 1;
@@ -88,7 +93,7 @@ class Grid {
     std::array<std::size_t, 3> from{}, to{};
     for (int c = 0; c < D; ++c) {
       const auto d = static_cast<std::size_t>(c);
-      if (!(centre[c] + radius >= lowest_[c])) return;
+      if (detail::is_nan(centre[c]) || !(centre[c] + radius >= lowest_[c])) return;
       if ((centre[c] - radius - lowest_[c]) * inverse_ >= static_cast<S>(cells_[d])) return;
       from[d] = coordinate(centre[c] - radius, c);
       to[d] = coordinate(centre[c] + radius, c);

@@ -11,6 +11,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
@@ -46,8 +47,8 @@ class Tube {
   explicit Tube(std::vector<TubeRow<S, D>> rows) {
     require(!rows.empty(), "hmps: a tube needs at least one row of centre and radius");
     for (std::size_t k = 0; k < rows.size(); ++k)
-      require(rows[k].centre.allFinite() && std::isfinite(rows[k].radius) && rows[k].radius > S(0), "hmps: row ", k,
-              " of a tube has radius ", rows[k].radius, " at (", rows[k].centre.transpose(),
+      require(detail::all_finite(rows[k].centre) && detail::is_finite(rows[k].radius) && rows[k].radius > S(0),
+              "hmps: row ", k, " of a tube has radius ", rows[k].radius, " at (", rows[k].centre.transpose(),
               "); give finite centres and positive radii in metres");
     if (rows.size() == 1) rows.push_back(rows.front());
     for (std::size_t k = 0; k + 1 < rows.size(); ++k)
@@ -83,13 +84,13 @@ class Stack {
   explicit Stack(std::vector<StackRow<S>> rows, S exponent = S(2), int axis = 2)
       : rows_(std::move(rows)), exponent_(exponent), axis_(axis) {
     require(rows_.size() >= 2, "hmps: a stack has ", rows_.size(), " rows; give at least two levels");
-    require(exponent >= S(1), "hmps: a stack has the exponent ", exponent,
+    require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a stack has the exponent ", exponent,
             "; give one from 1 (rhombus) on, 2 is an ellipse");
     require(axis >= 0 && axis <= 2, "hmps: a stack has the axis ", axis, "; give 0, 1 or 2 for x, y or z");
     std::sort(rows_.begin(), rows_.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto& row = rows_[k];
-      require(std::isfinite(row.level) && row.centre.allFinite() && row.half_axes.allFinite() &&
+      require(detail::is_finite(row.level) && detail::all_finite(row.centre) && detail::all_finite(row.half_axes) &&
                   row.half_axes.minCoeff() > S(0),
               "hmps: the stack's section at level ", row.level, " has half axes ", row.half_axes.transpose(),
               "; give finite centres and positive half axes in metres");
@@ -148,13 +149,14 @@ class Plate {
       : rows_(std::move(rows)), across_(across.normalized()), exponent_(exponent) {
     require(rows_.size() >= 2, "hmps: a plate has ", rows_.size(),
             " rows; give at least two points of its centre line");
-    require(exponent >= S(1), "hmps: a plate has the exponent ", exponent,
+    require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a plate has the exponent ", exponent,
             "; give one from 1 (rhombus) on, 2 is an ellipse");
-    require(across_.allFinite() && across_.norm() > S(0.5), "hmps: the width direction of a plate is (",
+    require(detail::all_finite(across_) && across_.norm() > S(0.5), "hmps: the width direction of a plate is (",
             across.transpose(), "); give a vector that is not zero");
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto& row = rows_[k];
-      require(row.centre.allFinite() && std::isfinite(row.bow) && row.half_width > S(0) && row.half_thickness > S(0),
+      require(detail::all_finite(row.centre) && detail::is_finite(row.bow) && detail::is_finite(row.half_width) &&
+                  detail::is_finite(row.half_thickness) && row.half_width > S(0) && row.half_thickness > S(0),
               "hmps: row ", k, " of a plate has half width ", row.half_width, " and half thickness ",
               row.half_thickness, "; give finite centres and positive sizes in metres");
       if (k == 0) continue;

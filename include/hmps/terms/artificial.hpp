@@ -7,6 +7,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -53,8 +54,7 @@ struct Artificial {
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
   if constexpr (std::is_arithmetic_v<Modulus>)
-    require(modulus >= 0 && std::isfinite(static_cast<double>(modulus)),
-            "hmps: the modulus of the artificial force is ", modulus,
+    require(detail::is_finite(modulus) && modulus >= 0, "hmps: the modulus of the artificial force is ", modulus,
             " Pa; it must not be negative (the paper takes Young's modulus)");
   return {std::move(modulus)};
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include "hmps/core/abi.hpp"
+
 #include "hmps/core/inline.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/staging.hpp"
@@ -15,6 +17,9 @@ template <class T, int D>
 struct Record {
   MatrixView<T, D> target;
 
+  /// Throws `InputError` unless `target` has a place for each of `size` particles.
+  void check(std::size_t size) const { require_size(target, size, "deformation gradients to record"); }
+
   template <class K>
   HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>&) const {
     const auto& F = particles.deformation_gradient;
@@ -22,7 +27,8 @@ struct Record {
   }
 };
 
-/// Records deformation gradients into `target`, one per particle of the bonds.
+/// Records deformation gradients into `target`, one per particle of the bonds: `internal_force` throws `InputError` for
+/// another number.
 template <class T, int D>
 [[nodiscard]] Record<T, D> record(const MatrixView<T, D>& target) {
   return {target};

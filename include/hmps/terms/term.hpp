@@ -54,6 +54,7 @@ class BlockOfParticles {
   template <class P, class B>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
     require_size(body, blocks_.size(), "bodies");
+    require_view(table, "the table of parameters");
     return gather([&](Index i) {
       const auto b = static_cast<std::size_t>(body[i]);
       require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i],
@@ -98,7 +99,9 @@ struct Coupling {
 /// | `term.damping(bonds)` | d of the whole body, in Pa s/m2 |
 /// | `term.pressure(particles, theta)` | dU/dtheta in Pa, U being an energy of the mean dilatation theta |
 ///
-/// Satisfied by `Elastic`, `Artificial`, `Viscous`, `MeanDilatation`, `Record`, and a user's own struct.
+/// A term that holds views of particles has `term.check(size)` too, which throws `InputError` unless they are views of
+/// `size` particles: `internal_force` asks when it is made. Satisfied by `Elastic`, `Artificial`, `Viscous`,
+/// `MeanDilatation`, `Record`, and a user's own struct.
 template <class Term, class K, int D>
 concept CouplingTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
   term.couple(particles, coupling);

@@ -5,6 +5,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -30,8 +31,8 @@ struct Viscous {
 /// m2/s (the paper: 1000 and 2e-3). Throws `InputError` for a density that is not positive or a
 /// negative viscosity.
 [[nodiscard]] inline Viscous viscous(double density, double viscosity) {
-  require(density > 0 && std::isfinite(density), "hmps: the density is ", density, " kg/m3; it must be positive");
-  require(viscosity >= 0 && std::isfinite(viscosity), "hmps: the viscosity is ", viscosity,
+  require(detail::is_finite(density) && density > 0, "hmps: the density is ", density, " kg/m3; it must be positive");
+  require(detail::is_finite(viscosity) && viscosity >= 0, "hmps: the viscosity is ", viscosity,
           " m2/s; it must not be negative");
   return {density, viscosity};
 }

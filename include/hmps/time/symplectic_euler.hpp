@@ -33,7 +33,9 @@ namespace hmps::inline HMPS_ABI {
 template <class T, class U, int D, PerParticle Rho, Executor E = Serial>
 void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, double dt, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: kick changes the velocities; give it a writable view of them");
+  require_view(v, "velocities");
   require_size(f, v.size(), "force densities");
+  require_apart(v, "velocities", f, "force densities");
   require_positive(rho, v.size(), "density", "kg/m3");
   detail::require_step(dt);
   execute(v.size(), [&](std::size_t i) {
@@ -54,7 +56,9 @@ template <class T, class U, int D, Executor E = Serial>
 void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: drift changes the positions; give it a writable view of them");
   using Real = std::common_type_t<T, std::remove_const_t<U>>;
+  require_view(x, "positions");
   require_size(v, x.size(), "velocities");
+  require_apart(x, "positions", v, "velocities");
   detail::require_step(dt);
   execute(x.size(), [&](std::size_t i) {
     for (int c = 0; c < D; ++c) x(i, c) = static_cast<T>(x(i, c) + v(i, c) * static_cast<Real>(dt));
@@ -72,7 +76,11 @@ template <class T, class U, int D, Executor E = Serial>
 void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, const VectorView<T, D>& carry,
            const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: drift changes the positions; give it a writable view of them");
+  require_view(x, "positions");
   require_size(v, x.size(), "velocities");
+  require_apart(x, "positions", v, "velocities");
+  require_apart(carry, "carries", x, "positions");
+  require_apart(carry, "carries", v, "velocities");
   require_size(carry, x.size(), "carries");
   detail::require_step(dt);
   execute(x.size(), [&](std::size_t i) {

@@ -235,9 +235,10 @@ def compare(what, found, expected, tolerance):
         sys.exit(f"{what} of particle {worst} is {found[worst]}, expected {expected[worst]}")
 
 
-def refused(program, folder, text, part):
+def refused(program, folder, text, part, *options):
     (folder / "bad.csv").write_text(text)
-    result = subprocess.run([program, "--in", folder / "bad.csv"], capture_output=True, text=True, check=False)
+    command = [program, "--in", folder / "bad.csv", *options]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
     if result.returncode != 2 or part not in result.stderr:
         sys.exit(f"bad input '{part}' ended with {result.returncode}: {result.stderr}")
 
@@ -277,6 +278,9 @@ def main(program):
         refused(program, folder, header + "0,0,0,0,0,0,0,0,0,1.5\n", "whole number")
         refused(program, folder, header + "0,0,0,0,0,0,0,0,0,1\n", "particle 0")
         refused(program, folder, header + "0,0,0,0,0,0,0,0,0,1\n" * 2, "particle")
+        places = [f"{SPACING * i},{SPACING * j},{SPACING * k}" for i in range(4) for j in range(4) for k in range(4)]
+        cube = "".join(f"{place},{place},0,0,0,1\n" for place in places)
+        refused(program, folder, header + cube, "nearest neighbours", "--spacing", "1.2")  # millimetres
 
 
 if __name__ == "__main__":

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "hmps/terms/elastic.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
 #include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
-#include "hmps/force/internal_force.hpp"
-#include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
 namespace {
@@ -121,8 +121,18 @@ TYPED_TEST(RelaxOf, FindsWhatASolverOfTheLinearSystemFinds) {
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[0];
 
   const double tolerance = std::is_same_v<T, float> ? 1e-4 : 1e-6;
+  std::vector<Relaxation> seen;
   const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
-                           {.spacing = l0, .tolerance = tolerance, .load = body.weight(), .moves = body.moves()});
+                           {.spacing = l0,
+                            .tolerance = tolerance,
+                            .load = body.weight(),
+                            .moves = body.moves(),
+                            .progress = [&](const Relaxation& now) { seen.push_back(now); }});
+  ASSERT_EQ(seen.size(), static_cast<std::size_t>(found.iterations) + 1);
+  EXPECT_EQ(seen.back().iterations, found.iterations);
+  EXPECT_EQ(seen.back().residual, found.residual);
+  EXPECT_EQ(seen.back().step, found.step);
+  EXPECT_GT(seen.front().residual, 10 * tolerance);
   EXPECT_LE(found.residual, tolerance);
   EXPECT_GT(found.iterations, 10);
   EXPECT_GT(found.peaks, 1);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -91,6 +92,24 @@ TYPED_TEST(StableStepOf, ChainOfSpringsIsBelowItsExactLimit) {
     EXPECT_NEAR(found.omega, omega, 0.02 * omega);
     EXPECT_EQ(found.damping, 0.0);
   }
+}
+
+TYPED_TEST(StableStepOf, TellsHowItGetsOn) {
+  using T = typename TypeParam::Scalar;
+  Chain<T, TypeParam::D> chain;
+  const auto x = chain.positions();
+  const std::vector<Vector<T, TypeParam::D>> v(chain.n, Vector<T, TypeParam::D>::Zero());
+  std::vector<double> limits;
+  const auto progress = [&](const StableStep& now) {
+    EXPECT_EQ(static_cast<std::size_t>(now.iterations), limits.size() + 1);
+    limits.push_back(now.limit);
+    if (limits.size() == 3) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(
+      (void)stable_step(chain, vectors(x), vectors(v), 1000.0, {.spacing = chain.spacing, .progress = progress}),
+      std::runtime_error);
+  ASSERT_EQ(limits.size(), 3u);
+  EXPECT_GT(limits[0], limits[2]);
 }
 
 TYPED_TEST(StableStepOf, DampedChainIsBelowTheJointLimit) {

@@ -129,11 +129,22 @@ TEST(LatticeBonds, RefuseWhatIsOffTheLattice) {
   EXPECT_TRUE(has(error, "particle 5") && has(error, "may span 1e6")) << error;
 }
 
-TEST(LatticeBonds, OfNoParticlesAreEmpty) {
+// A wrong spacing is not a reason to leave the lattice: the right one is named.
+TEST(LatticeBonds, NameTheSpacingThatParticlesSeemToHave) {
+  const auto points = scenes::box<3>({6, 5, 4});
+  const double l0 = scenes::Scene<3>::spacing;
+  const std::string right = hmps::message("is the spacing ", l0, " m?");
+  for (const double factor : {1.1, 0.6, 0.5, 2.0, 1e3, 1e-3, 1e-7}) {
+    const std::string error =
+        error_of([&] { (void)hmps::LatticeBonds<double, 3>(hmps::vectors(points), {.spacing = factor * l0}); });
+    EXPECT_TRUE(has(error, right)) << factor << ": " << error;
+  }
+}
+
+TEST(LatticeBonds, OfNoParticlesAreRefused) {
   const scenes::Points<3> none;
-  const hmps::LatticeBonds<float, 3> bonds(hmps::vectors(none), {.spacing = 1});
-  EXPECT_EQ(bonds.size(), 0u);
-  EXPECT_EQ(bonds.block_count(), 0u);
+  const std::string error = error_of([&] { (void)hmps::LatticeBonds<float, 3>(hmps::vectors(none), {.spacing = 1}); });
+  EXPECT_TRUE(has(error, "no particles to bond")) << error;
 }
 
 }  // namespace

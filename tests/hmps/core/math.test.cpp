@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -82,6 +83,9 @@ TYPED_TEST(MathOf, ScalarHelpers) {
     const T r = inverse_cube_root(x);
     EXPECT_NEAR(r * r * r * x, T(1), 5 * this->epsilon);
   }
+  // As in packs of lanes: a law has no value at J <= 0.
+  for (const T x : {T(0), T(-1), T(-8), std::numeric_limits<T>::quiet_NaN()})
+    EXPECT_TRUE(std::isnan(inverse_cube_root(x))) << x;
 }
 
 }  // namespace

@@ -22,6 +22,17 @@ TEST(OpenMP, RefusesNoThreads) {
   EXPECT_THROW(hmps::OpenMP{0}(1, [](std::size_t) {}), hmps::InputError);
 }
 
+// Thousands of threads that spin for each other look like a program that hangs.
+TEST(OpenMP, RefusesMoreThreadsThanCanWork) {
+  const int most = hmps::OpenMP::most_threads();
+  EXPECT_GE(most, 4 * omp_get_num_procs());
+  bool called = false;
+  EXPECT_THROW(hmps::OpenMP{most + 1}(1, [&](std::size_t) { called = true; }), hmps::InputError);
+  EXPECT_FALSE(called);
+  hmps::OpenMP{most}(1, [&](std::size_t) { called = true; });
+  EXPECT_TRUE(called);
+}
+
 TEST(OpenMP, GivesTheSameBitsAsOneThread) {
   const auto check = [](const auto& probe) {
     const auto expected = probe(hmps::Serial{});

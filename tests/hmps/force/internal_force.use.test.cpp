@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../bonds/bonds_of_a_scene.hpp"
@@ -285,6 +287,61 @@ TEST(InternalForce, RefusesViewsOfTheWrongSize) {
   EXPECT_TRUE(has(error_of([&] { force(w, r, r); }), "positions" + sizes));
   EXPECT_TRUE(has(error_of([&] { force(r, w, r); }), "velocities" + sizes));
   EXPECT_TRUE(has(error_of([&] { force(r, r, w); }), "forces" + sizes));
+}
+
+// Unchecked, this writes beyond the end of the user's array.
+TEST(InternalForce, RefusesARecordOfTheWrongSizeWhenItIsMade) {
+  const auto scene = scene_of("box");
+  const auto bonds = make_bonds<Lattice>(scene);
+  std::vector<hmps::Matrix<double, 3>> F(bonds.size() - 1);
+  const std::string text = error_of([&] { (void)hmps::internal_force(bonds, hmps::record(hmps::matrices(F))); });
+  EXPECT_TRUE(has(text, "deformation gradients to record holds " + std::to_string(F.size()))) << text;
+}
+
+TEST(InternalForce, RefusesForcesInTheMemoryOfTheState) {
+  const auto scene = scene_of("box");
+  const auto bonds = make_bonds<Lattice>(scene);
+  Vectors<3> x = scene.x, v = scene.v;
+  auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::viscous(1000, 2e-3));
+  const auto X = hmps::vectors(x), V = hmps::vectors(v);
+  EXPECT_TRUE(has(error_of([&] { force(X, V, X); }), "forces and positions are the same memory"));
+  EXPECT_TRUE(has(error_of([&] { force(X, V, V); }), "forces and velocities are the same memory"));
+  EXPECT_TRUE(has(error_of([&] { force.kick(X, X, 1e3, 1e-6); }), "velocities and positions are the same memory"));
+  EXPECT_TRUE(x == scene.x && v == scene.v);
+}
+
+// A vector of bodies moves them when it grows: the force goes on with the bonds where they are.
+TEST(InternalForce, FollowsBondsThatAreMoved) {
+  const auto scene = scene_of("box");
+  std::vector<Lattice> bodies;
+  bodies.push_back(make_bonds<Lattice>(scene));
+  auto force = hmps::internal_force(bodies[0], hmps::elastic(law));
+  const std::size_t n = scene.x.size();
+  Vectors<3> before(n), after(n);
+  force(hmps::vectors(scene.x), hmps::vectors(before));
+  const Lattice* const old = &bodies[0];
+  bodies.reserve(bodies.capacity() + 7);
+  ASSERT_NE(&bodies[0], old);
+  force(hmps::vectors(scene.x), hmps::vectors(after));
+  EXPECT_EQ(&force.bonds(), &bodies[0]);
+  EXPECT_TRUE(before == after);
+}
+
+TEST(InternalForce, RefusesBondsThatAreNoMore) {
+  const auto scene = scene_of("box");
+  Vectors<3> f(scene.x.size());
+  auto bonds = std::make_unique<Lattice>(make_bonds<Lattice>(scene));
+  auto force = hmps::internal_force(*bonds, hmps::elastic(law));
+  const auto evaluate = [&] { force(hmps::vectors(scene.x), hmps::vectors(f)); };
+  EXPECT_NO_THROW(evaluate());
+  *bonds = make_bonds<Lattice>(scene_of("L"));
+  EXPECT_TRUE(has(error_of(evaluate), "bonds of this force are no more"));
+  auto second = hmps::internal_force(*bonds, hmps::elastic(law));
+  const Lattice moved = std::move(*bonds);
+  EXPECT_EQ(&second.bonds(), &moved);
+  EXPECT_TRUE(has(error_of([&] { (void)hmps::internal_force(*bonds, hmps::elastic(law)); }), "hold no particle"));
+  bonds.reset();
+  EXPECT_EQ(&second.bonds(), &moved);
 }
 
 // Only a force without damping may be asked for without velocities.

@@ -7,7 +7,10 @@
 #include <limits>
 #include <string>
 
-#include "law_checks.hpp"
+#include "hmps/laws/law_checks.hpp"
+#include "hmps/laws/linear_elastic.hpp"
+#include "hmps/laws/neo_hookean.hpp"
+#include "hmps/laws/saint_venant_kirchhoff.hpp"
 
 namespace {
 
@@ -144,6 +147,43 @@ TEST(MooneyRivlin, ModuliThatAreNotPositiveAreRefused) {
     EXPECT_NE(std::string(error.what()).find("D1"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("-7"), std::string::npos);
   }
+}
+
+// What is taken for D1 by mistake: Poisson's ratio, D1 in MPa, and the 2 / K of other programs in 1/Pa and 1/MPa.
+TEST(MooneyRivlin, ConstantsThatAreNoD1AreRefused) {
+  for (const double d1 : {0.49, 0.3, 1.0, 1e-6, 1e-12, 2000.0}) {
+    try {
+      MooneyRivlin<double>::from_young(20e3, d1).validate();
+      ADD_FAILURE() << d1 << " passes";
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      for (const char* part : {"D1", "bulk modulus", "Poisson's ratio -"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+  }
+  // The smallest that passes has Poisson's ratio zero: K = 2 G / 3, G = E / 3.
+  EXPECT_NO_THROW(MooneyRivlin<double>::from_young(20e3, 20e3 / 9 * (1 + 1e-12)).validate());
+  EXPECT_THROW(MooneyRivlin<double>::from_young(20e3, 20e3 / 9 * (1 - 1e-12)).validate(), InputError);
+  EXPECT_NO_THROW(MooneyRivlin<float>::from_young_poisson(20e3f, 0.0f).validate());
+}
+
+// One spelling means one material in every law.
+TEST(MooneyRivlin, ModuliAreThoseThatItIsMadeFrom) {
+  const double E = 20e3, nu = 0.45, K = E / (3 * (1 - 2 * nu)), G = E / (2 * (1 + nu));
+  const auto check = [&](const auto& law) {
+    EXPECT_NEAR(law.bulk_modulus(), K, 1e-12 * K);
+    EXPECT_NEAR(law.shear_modulus(), G, 1e-12 * G);
+    EXPECT_NO_THROW(law.validate());
+  };
+  check(MooneyRivlin<>::from_young_poisson(E, nu));
+  check(MooneyRivlin<>::from_moduli(K, G, 3.0));
+  check(hmps::NeoHookean<>::from_young_poisson(E, nu));
+  check(hmps::NeoHookean<>::from_moduli(K, G));
+  check(hmps::SaintVenantKirchhoff<>::from_young_poisson(E, nu));
+  check(hmps::SaintVenantKirchhoff<>::from_moduli(K, G));
+  check(hmps::LinearElastic<>::from_young_poisson(E, nu));
+  check(hmps::LinearElastic<>::from_moduli(K, G));
+  EXPECT_DOUBLE_EQ(MooneyRivlin<>::from_moduli(K, G, 3.0).c1, 3 * MooneyRivlin<>::from_moduli(K, G, 3.0).c2);
 }
 
 }  // namespace

@@ -76,6 +76,49 @@ TYPED_TEST(Lattice, HasTheVolumeOfTheShape) {
   for (const V& x : points) EXPECT_LT(ball(x), S(0));
 }
 
+// Sites on faces: those on the lower sides count, however origin, corners and spacing are rounded.
+TYPED_TEST(Lattice, ABoxOfTenSpacingsHoldsTenSitesWhateverTheOrigin) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  for (const double l0 : {2e-3, 1.2e-3, 1e-3 / 3, 0.7, 1e-6}) {
+    for (const double corner : {0.0, 1.0, -10.0, -5.0, 3.7, 0.1, -41.3}) {
+      for (const double shift : {0.0, 0.5, 1.0 / 3, -7.0}) {
+        const auto at = [&](double spacings) { return V(V::Constant(static_cast<S>(l0 * spacings))); };
+        const Box<S, D> box{at(corner), at(corner + 10)};
+        // Sites on the faces, and between them.
+        for (const V& origin : {at(corner + shift), at(shift)})
+          EXPECT_EQ(hmps::fill_lattice(box, box, static_cast<S>(l0), origin).size(), D == 2 ? 100u : 1000u)
+              << l0 << " from " << corner << ", origin " << origin.transpose();
+      }
+    }
+  }
+}
+
+// Bodies that share a face have no sites of it in common, and none is lost between them.
+TYPED_TEST(Lattice, NoSiteIsLostBetweenBodiesThatTouch) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const Box<S, D> region{V::Constant(S(-0.1)), V::Constant(S(1.1))};
+  V lower = V::Ones(), upper = V::Zero();
+  lower[0] = upper[0] = S(0.3);
+  const Box<S, D> left{V::Zero(), lower}, right{upper, V::Ones()};
+  const std::size_t row = D == 2 ? 10 : 100;
+  const auto count = [&](const auto& shape) { return hmps::fill_lattice(shape, region, S(0.1)).size(); };
+  EXPECT_EQ(count(left), 3 * row);
+  EXPECT_EQ(count(right), 7 * row);
+  EXPECT_EQ(count([&](const V& x) { return std::min(left(x), right(x)); }), 10 * row);
+  V diagonal = V::Zero();
+  diagonal[0] = 1;
+  diagonal[1] = -1;
+  const hmps::HalfSpace<S, D> below{.point = V::Zero(), .outward = diagonal}, above{V::Zero(), -diagonal};
+  const Box<S, D> unit{V::Zero(), V::Ones()};
+  const auto part = [&](const auto& half) { return count([&](const V& x) { return std::max(unit(x), half(x)); }); };
+  EXPECT_EQ(part(below), 45 * row / 10);
+  EXPECT_EQ(part(above), 55 * row / 10);
+}
+
 TYPED_TEST(Lattice, StartsAtTheOriginThatIsAskedFor) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;
@@ -122,6 +165,10 @@ TYPED_TEST(Lattice, RefusesWhatCannotBeFilled) {
   EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, unit, S(0.1), V(V::Constant(infinity))), hmps::InputError);
   const auto nan = [](const V&) { return std::numeric_limits<S>::quiet_NaN(); };
   EXPECT_THROW((void)hmps::fill_lattice(nan, unit, S(0.5)), hmps::InputError);
+  const V most = V::Constant(std::numeric_limits<S>::max());
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, Box<S, D>{-most, most}, S(1)), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, Box<S, D>{most, most}, S(1), V(-most)), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_lattice(Everywhere{}, unit, std::numeric_limits<S>::denorm_min()), hmps::InputError);
   try {
     (void)hmps::fill_lattice(Everywhere{}, unit, S(1e-7));
     ADD_FAILURE() << "1e14 sites or more were accepted";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace {
@@ -154,7 +155,29 @@ TYPED_TEST(Support, CountsOnlyBondsThatThePredicateAllows) {
   const auto same_body = [&](std::size_t i, std::size_t j) { return (i < half) == (j < half); };
   EXPECT_TRUE(hmps::find_weak(hmps::vectors(points), settings).empty());
   EXPECT_EQ(hmps::find_weak(hmps::vectors(points), settings, same_body).size(), points.size());
-  EXPECT_TRUE(hmps::remove_weak(hmps::vectors(points), settings, hmps::KeepNone{}, same_body).empty());
+  try {
+    (void)hmps::remove_weak(hmps::vectors(points), settings, hmps::KeepNone{}, same_body);
+    ADD_FAILURE() << "an empty body is left in silence";
+  } catch (const hmps::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("thicken the body"), std::string::npos) << error.what();
+  }
+}
+
+TYPED_TEST(Support, NamesTheSpacingWhereNothingIsLeft) {
+  using F = TestFixture;
+  typename F::Points points;
+  F::add_block(points, F::at(0), F::all(6));
+  typename F::Points none;
+  EXPECT_TRUE(hmps::remove_weak(hmps::vectors(none), {.spacing = 1}).empty());
+  for (const double factor : {0.4, 1e-3}) {
+    try {
+      (void)hmps::remove_weak(hmps::vectors(points), {.spacing = factor * F::l0});
+      ADD_FAILURE() << "an empty body is left in silence";
+    } catch (const hmps::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("leaves none"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("is the spacing"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TYPED_TEST(Support, RefusesSettingsThatMakeNoSense) {

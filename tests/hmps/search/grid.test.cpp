@@ -87,4 +87,20 @@ TYPED_TEST(GridTest, RefusesBadCellsAndPoints) {
   EXPECT_THROW(this->build(S(1)), hmps::InputError);
 }
 
+// A cell list of points that are far apart must not go on for ever, nor ask for memory without bound.
+TYPED_TEST(GridTest, EndsForPointsThatAreFarApart) {
+  using S = typename TypeParam::S;
+  const S most = std::numeric_limits<S>::max();
+  this->fill(10, S(1));
+  this->points[4][1] = most / 4;
+  this->build(S(1e-3));
+  this->expect_true_neighbours(this->points[3], S(1));
+  this->points[5][1] = -most / 4;
+  this->build(std::numeric_limits<S>::min());
+  this->expect_true_neighbours(this->points[3], S(1));
+  this->points[4][1] = most;
+  this->points[5][1] = -most;
+  EXPECT_THROW(this->build(S(1)), hmps::InputError);
+}
+
 }  // namespace

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+// expect: hmps needs C++20
+// flags: -std=c++17
+#include "hmps/hmps.hpp"

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/core/view_types.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace {
+
+using hmps::VectorView;
+static_assert(std::is_convertible_v<VectorView<double, 3>, VectorView<const double, 3>>);
+static_assert(!std::is_convertible_v<VectorView<const double, 3>, VectorView<double, 3>>);
+
+// Two components that lie in memory of their own, every third number counts; the view runs backwards.
+TEST(ViewTypes, FindComponentsByBaseAndStride) {
+  std::vector<double> memory(20);
+  for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = static_cast<double>(k);
+  const VectorView<double, 2> view({&memory[9], &memory[19]}, 4, -3 * static_cast<std::ptrdiff_t>(sizeof(double)));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(view(i, 0), 9 - 3 * static_cast<double>(i));
+    EXPECT_EQ(view[i], (hmps::Vector<double, 2>(view(i, 0), view(i, 1))));
+  }
+  const auto part = view.part(1, 2);
+  EXPECT_EQ(part.size(), 2u);
+  part.set(1, hmps::Vector<double, 2>(-1, -2));
+  EXPECT_EQ(memory[3], -1);
+  EXPECT_EQ(memory[13], -2);
+  part.add(1, hmps::Vector<double, 2>(1, 1));
+  EXPECT_EQ(memory[13], -1);
+}
+
+}  // namespace
