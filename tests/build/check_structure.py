@@ -14,6 +14,9 @@ LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact
           "time", "analysis", "diagnostics", "executors"]
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
+# What is longer today, and by how much at most: to be divided, not to be added to.
+LONGER = {"hmps/lanes/lanes.hpp": 366, "hmps/force/internal_force.hpp": 346}
+LONGER_FUNCTIONS = {"hmps/contact/candidates_build.hpp": 69, "hmps/contact/contact_evaluate.hpp": 85}
 
 INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)
 # What opens a block that is no function.
@@ -84,11 +87,13 @@ def check(root):
         name = str(path.relative_to(root / "include"))
         text = path.read_text(encoding="utf-8")
         graph[name] = INCLUDE.findall(text)
-        if text.count("\n") > MOST_LINES and name != "hmps/hmps.hpp":
-            problems.append(f"include/{name} has {text.count(chr(10))} lines; {MOST_LINES} are allowed")
+        lines, most = text.count("\n"), LONGER.get(name, MOST_LINES)
+        if lines > most and name != "hmps/hmps.hpp":
+            problems.append(f"include/{name} has {lines} lines; {most} are allowed")
         for line, length in functions(text):
-            if length > MOST_FUNCTION_LINES:
-                problems.append(f"include/{name}:{line}: a function of {length} lines; {MOST_FUNCTION_LINES} are allowed")
+            most = LONGER_FUNCTIONS.get(name, MOST_FUNCTION_LINES)
+            if length > most:
+                problems.append(f"include/{name}:{line}: a function of {length} lines; {most} are allowed")
         folder = name.split("/")[1]
         if name == "hmps/hmps.hpp":
             continue

@@ -126,6 +126,80 @@ template <class F, int D>
                            "if det F reached zero, take the law as Continued{law}"));
 }
 
+[[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings) {
+  throw StateError(message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
+                           result.residual, " of the load, ", result.load, " N; allow more max_iterations than ",
+                           settings.max_iterations, ", or a larger tolerance than ", settings.tolerance));
+}
+
+/// The state that `relax` brings to rest, and what it does to all of its particles.
+template <class X, class V, class F, int D, class Rho, class E>
+class RelaxingBody {
+ public:
+  /// Throws `InputError` where no particle moves, or all do and no load is given.
+  RelaxingBody(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
+               const RelaxationSettings& settings, const E& execute)
+      : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
+    for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = !settings.moves || settings.moves(i);
+    const auto count = static_cast<std::size_t>(std::count(follows_.begin(), follows_.end(), char(1)));
+    require(count > 0, "hmps: no particle of relax moves; `moves` must hold for some");
+    require(settings.load > 0 || count < follows_.size(),
+            "hmps: every particle of relax moves and no load is given; give the load in N that unbalanced forces are "
+            "compared with");
+  }
+
+  /// Of a particle, in m^D.
+  [[nodiscard]] double volume() const { return volume_; }
+  /// For each particle whether it follows the forces.
+  [[nodiscard]] const std::vector<char>& follows() const { return follows_; }
+
+  void clear_forces() const {
+    execute_(x_.size(), [&](std::size_t i) {
+      for (int c = 0; c < D; ++c) f_(i, c) = F(0);
+    });
+  }
+  /// Takes all velocities.
+  void stop() const {
+    execute_(x_.size(), [&](std::size_t i) {
+      for (int c = 0; c < D; ++c) v_(i, c) = V(0);
+    });
+  }
+  /// Takes the velocities of the particles that do not move.
+  void hold() const {
+    execute_(x_.size(), [&](std::size_t i) {
+      for (int c = 0; c < D && !follows_[i]; ++c) v_(i, c) = V(0);
+    });
+  }
+  /// Moves all particles back by what they travel in `time` (s).
+  void go_back(double time) const {
+    execute_(x_.size(), [&](std::size_t i) {
+      for (int c = 0; c < D; ++c) x_(i, c) = static_cast<X>(x_(i, c) - v_(i, c) * time);
+    });
+  }
+  [[nodiscard]] Unbalanced unbalanced() const {
+    const auto of = [&](std::size_t i) {
+      const Vector<double, D> push = f_[i].template cast<double>();
+      const double size = push.norm();
+      const Vector<double, D> speed = v_[i].template cast<double>();
+      if (!follows_[i]) return Unbalanced{.held = size};
+      return Unbalanced{.moving = size,
+                        .power = push.dot(speed),
+                        .gain = size * size / static_cast<double>(at_particle(rho_, i)),
+                        .fastest = speed.norm()};
+    };
+    return reduce(x_.size(), Unbalanced{}, of, Unbalanced::join, execute_);
+  }
+
+ private:
+  VectorView<X, D> x_;
+  VectorView<V, D> v_;
+  VectorView<F, D> f_;
+  const Rho& rho_;
+  const E& execute_;
+  double volume_;
+  std::vector<char> follows_;
+};
+
 }  // namespace detail
 
 /// Brings a body to rest under the composed `force`, by dynamic relaxation with kinetic damping: the static answer.
@@ -173,58 +247,22 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   require_apart(v, "velocities", f, "force densities");
   require_positive(rho, n, "density", "kg/m3");
   require_finite(x, "the position");
-  const auto moves = [&](std::size_t i) { return !settings.moves || settings.moves(i); };
-  std::vector<char> follows(n);
-  for (std::size_t i = 0; i < n; ++i) follows[i] = moves(i);
-  const auto count = static_cast<std::size_t>(std::count(follows.begin(), follows.end(), char(1)));
-  require(count > 0, "hmps: no particle of relax moves; `moves` must hold for some");
-  require(settings.load > 0 || count < n,
-          "hmps: every particle of relax moves and no load is given; give the load in N that unbalanced forces are "
-          "compared with");
-
-  const double volume = std::pow(settings.spacing, D);
-  const auto stop = [&] {
-    execute(n, [&](std::size_t i) {
-      for (int c = 0; c < D; ++c) v(i, c) = V(0);
-    });
-  };
-  const auto back = [&](double time) {
-    execute(n, [&](std::size_t i) {
-      for (int c = 0; c < D; ++c) x(i, c) = static_cast<X>(x(i, c) - v(i, c) * time);
-    });
-  };
-  const auto unbalanced = [&] {
-    return reduce(
-        n, detail::Unbalanced{},
-        [&](std::size_t i) {
-          const Vector<double, D> push = f[i].template cast<double>();
-          const double size = push.norm();
-          const Vector<double, D> speed = v[i].template cast<double>();
-          if (!follows[i]) return detail::Unbalanced{.held = size};
-          return detail::Unbalanced{.moving = size,
-                                    .power = push.dot(speed),
-                                    .gain = size * size / static_cast<double>(at_particle(rho, i)),
-                                    .fastest = speed.norm()};
-        },
-        detail::Unbalanced::join, execute);
-  };
+  detail::RelaxingBody body(x, v, f, rho, settings, execute);
 
   Relaxation result;
   detail::RelaxationStep step(settings);
-  stop();
+  body.stop();
   double before = 0;  // the power of the forces at the start of the last drift
   for (bool at_rest = true;; ++result.iterations) {
-    execute(n, [&](std::size_t i) {
-      for (int c = 0; c < D; ++c) f(i, c) = F(0);
-    });
+    body.clear_forces();
     force(Read(x), VectorView<const V, D>(v), f);
     ++result.evaluations;
-    const detail::Unbalanced sums = unbalanced();
-    const double carried = settings.load > 0 ? settings.load : sums.held * volume;
+    const detail::Unbalanced sums = body.unbalanced();
+    const double carried = settings.load > 0 ? settings.load : sums.held * body.volume();
     if (!detail::is_finite(sums.moving + sums.power + carried))
-      detail::throw_not_finite(f, settings.load > 0 ? follows : std::vector<char>(n, 1), result.iterations);
+      detail::throw_not_finite(f, settings.load > 0 ? body.follows() : std::vector<char>(n, 1), result.iterations);
     result.load = carried;
-    result.residual = sums.moving > 0 ? sums.moving * volume / carried : 0.0;
+    result.residual = sums.moving > 0 ? sums.moving * body.volume() / carried : 0.0;
     result.step = step.value();
     if (settings.progress) settings.progress(result);
 
@@ -232,25 +270,19 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
     if (balanced && at_rest) break;
     if (balanced || sums.power < 0) {
       // Balanced in motion counts only if it lasts at rest: the force may depend on the velocities.
-      if (!balanced) back(step.value() * sums.power / (sums.power - before));
-      stop();
+      if (!balanced) body.go_back(step.value() * sums.power / (sums.power - before));
+      body.stop();
       at_rest = true;
       ++result.peaks;
       continue;
     }
-    if (result.iterations >= settings.max_iterations)
-      throw StateError(message("hmps: relax made ", result.iterations,
-                               " iterations and the unbalanced forces are still ", result.residual, " of the load, ",
-                               result.load, " N; allow more max_iterations than ", settings.max_iterations,
-                               ", or a larger tolerance than ", settings.tolerance));
+    if (result.iterations >= settings.max_iterations) detail::throw_not_at_rest(result, settings);
     step.update(force, Read(x), VectorView<const V, D>(v), rho, sums.fastest, execute);
     const double kicked = at_rest ? step.value() / 2 : step.value();
     kick(v, f, rho, kicked, execute);
     before = sums.power + kicked * sums.gain;
     at_rest = false;
-    execute(n, [&](std::size_t i) {
-      for (int c = 0; c < D && !follows[i]; ++c) v(i, c) = V(0);
-    });
+    body.hold();
     drift(x, v, step.value(), execute);
   }
   result.step = step.value();

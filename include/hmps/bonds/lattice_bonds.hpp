@@ -132,6 +132,11 @@ class LatticeBonds : public Blocks<K, D> {
     std::uint16_t offset;
   };
   static_assert(width <= 16, "hmps: the lanes of a run are kept in 16 bits");
+  /// A run and the set of axes of a block that it belongs to.
+  struct Placed {
+    std::size_t group;
+    Run run;
+  };
 
   template <class T>
   [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
@@ -152,10 +157,6 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<std::int64_t> keys(n);
     for (std::size_t s = 0; s < n; ++s) keys[s] = cells.key(cells.cell[cells.order[s]]);
 
-    struct Placed {
-      std::size_t group;
-      Run run;
-    };
     std::vector<Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
@@ -193,24 +194,27 @@ class LatticeBonds : public Blocks<K, D> {
         placed.back().run.lanes = static_cast<std::uint16_t>(placed.back().run.lanes | 1u << s % width);
       }
     }
-    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", n, " particles make ",
-            placed.size(), " runs, more than can be numbered; divide the body");
     if (placed.empty() && n > 1) {  // else it is for the particle without neighbours to say
       const std::string hint = detail::spacing_hint(reference, settings.spacing);
       if (!hint.empty()) throw InputError("hmps: no two particles are near enough to be bonded" + hint);
     }
-    // From offset by offset to block by block: a counting sort keeps the order of the offsets.
+    keep_runs(placed);
+    for (std::size_t i = 0; i < n; ++i)
+      this->keep_shape(i, shapes[i].inverse(i), shapes[i].asymmetry, shapes[i].A.trace());
+    this->share_shapes();
+    this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
+  }
+
+  /// Keeps the runs block by block that come offset by offset: a counting sort keeps the order of the offsets.
+  void keep_runs(const std::vector<Placed>& placed) {
+    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", this->size(),
+            " particles make ", placed.size(), " runs, more than can be numbered; divide the body");
     first_run_.assign(this->block_count() * directions + 1, 0);
     for (const Placed& p : placed) ++first_run_[p.group + 1];
     std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
     runs_.resize(placed.size());
     std::vector<std::uint32_t> next(first_run_.begin(), first_run_.end() - 1);
     for (const Placed& p : placed) runs_[next[p.group]++] = p.run;
-
-    for (std::size_t i = 0; i < n; ++i)
-      this->keep_shape(i, shapes[i].inverse(i), shapes[i].asymmetry, shapes[i].A.trace());
-    this->share_shapes();
-    this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
   }
 
   /// The cells no further than `radius` spacings from the origin, without the origin.

@@ -225,7 +225,3 @@ class Candidates {
 };
 
 }  // namespace hmps::inline HMPS_ABI::detail
-
-#include "hmps/contact/candidates_build.hpp"
-#include "hmps/contact/candidates_select.hpp"
-#include "hmps/contact/candidates_sleep.hpp"

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "hmps/contact/contact.hpp"
+#include "hmps/contact/candidates_build.hpp"
+#include "hmps/contact/candidates_select.hpp"
+#include "hmps/contact/candidates_sleep.hpp"
+#include "hmps/contact/metaball_contact.hpp"
 #include "hmps/core/abi.hpp"
 
 namespace hmps::inline HMPS_ABI {

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "bodies.hpp"
+#include "hmps/contact/candidates_build.hpp"
+#include "hmps/contact/candidates_select.hpp"
+#include "hmps/contact/candidates_sleep.hpp"
 #include "hmps/core/executor.hpp"
 
 namespace {

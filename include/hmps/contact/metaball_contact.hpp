@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "hmps/contact/candidates.hpp"
+#include "hmps/contact/master_surface.hpp"
+#include "hmps/contact/metaball.hpp"
+#include "hmps/contact/normal_density.hpp"
+#include "hmps/contact/organ.hpp"
+#include "hmps/contact/penalty.hpp"
+#include "hmps/contact/penetration.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/step.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/lanes/quad.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// What a scene says about its contacts.
+struct ContactSettings {
+  double spacing;                                             ///< l0 in m.
+  double density;                                             ///< rho in kg/m3.
+  double friction = 0;                                        ///< mu_tan, \paper{23}.
+  PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
+  /// Normal damping as a fraction of the critical 2 sqrt(k rho); beyond the paper, which has none. It
+  /// is cut where it would reverse the closing velocity within a step.
+  double damping = 0;
+  double skin = 0.5;  ///< In spacings: how much motion the candidate lists bear before they are rebuilt.
+};
+
+/// What one evaluation of the contact met.
+template <class S>
+struct ContactReport {
+  std::size_t contacts = 0;  ///< Slaves with p > 0, counted once per organ that they touch.
+  std::size_t sticking = 0;  ///< Of those, the ones whose friction is below its limit.
+  /// Slaves that their wall has lost: so deep that it no longer tells which way is out, or pushed to the other side
+  /// since the call before. See `MetaballContact::check`. In walls of three layers and more that takes a penetration
+  /// of about 1.75 spacings, in thinner ones the middle. A slave between two faces of one organ that both touch it
+  /// looks like that too.
+  std::size_t deep = 0;
+  Index lost = 0;              ///< The deepest of them,
+  std::size_t lost_in = 0;     ///< the organ whose wall has lost it,
+  S lost_depth = 0;            ///< and its p in m, of an undeformed wall where that has no normal.
+  S penetration = 0;           ///< The largest p in m.
+  Index deepest = 0;           ///< Its slave.
+  std::size_t candidates = 0;  ///< Slave-master pairs that were looked at.
+  std::size_t rebuilds = 0;    ///< How often the grid search ran so far.
+  /// How many checks of the lists so far found some strain or normal to have changed by more than they allow for,
+  /// so that a touch could have been seen a few steps late. Zero or rare unless a run chatters.
+  std::size_t late = 0;
+};
+
+/// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
+/// reactions and friction. A functor that keeps only the lists of candidates and the latest normals; positions,
+/// velocities and deformation gradients stay with the caller.
+///
+/// Declare organs and the pairs that may touch, then in each step call
+/// `contact(x, v, F, dt, f)` with v = v* of \paper{2}; it ADDS the force density (N/m3) of \paper{43}
+/// to `f`. Views hold all particles; F is read for the slaves and masters only (rotation of a rigid
+/// particle is irrelevant, so it may keep the identity).
+///
+/// Forces of a contact and its reactions sum to zero; their torque does not vanish exactly, since a
+/// reaction acts at the master's centre and not at the touching point (\paper{41, 42}).
+/// Results are the same to the bit for any executor, and do not depend on when lists were built as long as `late` of
+/// the report stays zero: what deforms much within a few steps, as in an impact at half of the speed of sound, may be
+/// seen a few steps late.
+/// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
+/// error of that.
+template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
+class MetaballContact {
+  static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
+  using Lists = detail::Candidates<S, D, Ball>;
+  using Point = Vector<S, D>;
+  using Tensor = Matrix<S, D>;
+
+ public:
+  /// Throws `InputError` on settings that are not finite or out of range.
+  explicit MetaballContact(const ContactSettings& settings)
+      : settings_(settings),
+        lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.skin * settings.spacing)) {
+    require(settings.density > 0 && std::isfinite(settings.density), "hmps: the density for contact is ",
+            settings.density, " kg/m3; give a positive number");
+    require(settings.friction >= 0 && std::isfinite(settings.friction), "hmps: the friction coefficient is ",
+            settings.friction, "; give zero or a positive number");
+    require(settings.damping >= 0 && std::isfinite(settings.damping), "hmps: the contact damping is ", settings.damping,
+            "; give zero or a positive fraction of critical");
+    require(settings.skin > 0 && std::isfinite(settings.skin), "hmps: the skin of the contact lists is ", settings.skin,
+            " spacings; give a positive number, such as 0.5");
+  }
+
+  /// Declares an organ; the number returned names it in `add_pair`. Throws `InputError` if empty.
+  std::size_t add_organ(const Organ& organ) { return lists_.add_organ(organ); }
+
+  /// Declares that two organs may touch. Throws `InputError` where they share a particle or lack slaves
+  /// or masters for their roles. Returns the pair's number.
+  std::size_t add_pair(std::size_t first, std::size_t second, const PairSettings& settings = {}) {
+    return lists_.add_pair(first, second, settings);
+  }
+
+  /// Builds all lists anew at the next call. Not needed after steps in time.
+  void refresh() {
+    lists_.refresh();
+    ++call_;
+  }
+
+  [[nodiscard]] const ContactSettings& settings() const { return settings_; }
+  void set_friction(double mu) {
+    require(mu >= 0 && std::isfinite(mu), "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
+    settings_.friction = mu;
+  }
+
+  /// Adds the contact force densities at step `dt` (s) to `f`. Throws `InputError` on views of wrong
+  /// size and a bad step, `StateError` on positions that are not finite.
+  template <class X, class V, class M, class T, Executor E = Serial>
+  ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
+                              double dt, const VectorView<T, D>& f, const E& execute = {}) {
+    require_size(F, x.size(), "deformation gradients");
+    return evaluate(x, v, F, dt, f, execute);
+  }
+
+  /// The same for particles that do not deform.
+  template <class X, class V, class T, Executor E = Serial>
+  ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, double dt,
+                              const VectorView<T, D>& f, const E& execute = {}) {
+    return evaluate(x, v, detail::Undeformed<S, D>{}, dt, f, execute);
+  }
+
+  /// Adds to the velocities `v` (m/s) of what touches what contact gives in the step `dt` (s), \paper{3}: the forces
+  /// of the call above and `kick`, without an array of forces, and at no cost for particles that are far from any
+  /// other organ. Particles that are `prescribed` keep their velocity. Density `rho` in kg/m3, a number or a
+  /// `ScalarView`. Throws as those two do.
+  template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
+  ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
+                        double dt, const E& execute = {}) {
+    static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
+    require_size(F, x.size(), "deformation gradients");
+    require_positive(rho, x.size(), "density", "kg/m3");
+    const ContactReport<S> report = survey(x, v, F, dt, execute);
+    if (report.contacts == 0) return report;
+    hand_out(
+        [&](const typename Lists::Awake& own, const Point& force) {
+          if (own.flags & Lists::is_prescribed) return;
+          const Index i = own.particle;
+          for (int c = 0; c < D; ++c) detail::kick(v(i, c), force[c], at_particle(rho, i), dt);
+        },
+        execute);
+    return report;
+  }
+
+  /// Throws a `StateError` if `report`, that of the latest call, has a slave that its wall has lost: time (s, if
+  /// given), particle, organ, depth, and what to try. Call it after each evaluation, not now and then: what passes a
+  /// thin wall is in it for a few steps only, and seems to be all right beyond it. Costs one comparison. Nothing
+  /// passes unseen that moves less than a spacing per step against the wall, as all do that are slower than sound.
+  void check(const ContactReport<S>& report, double time = std::numeric_limits<double>::quiet_NaN()) const {
+    if (report.deep > 0) fail(report, time);
+  }
+
+  /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second, in
+  /// the latest call: what the first feels from the second. Particles have the volume l0^D.
+  [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
+    Vector<double, D> sum = Vector<double, D>::Zero();
+    for (const Index r : touching_) {
+      const auto& side = lists_.sides[lists_.rows[r].side];
+      if (side.pair != pair) continue;
+      const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
+      sum += side.slaves == lists_.pairs[pair].first ? force : -force;
+    }
+    return sum * std::pow(settings_.spacing, D);
+  }
+
+ private:
+  using Quad = detail::Quad<S>;
+  struct alignas(64) Master {  // a cache line of float
+    Quad x, A[D];              // A = F^-T F^-1
+  };
+  struct alignas(64) Moving {
+    Quad v, B[D];  // B = F^-1
+  };
+  struct RowState {
+    Point normal, slip;  // slip: v_im
+    S penetration;       // positive where the row touches, or did in the call before
+  };
+  struct Seat {                // what is remembered of a slave of one wall
+    Vector<float, D> outward;  // before the masters turned, when it was last less than half inside
+    std::uint32_t call = 0;    // in which it touched
+  };
+  struct Batch {
+    std::size_t count = 0, deep = 0;
+    Index deepest = 0;  // row
+    S depth = 0;
+  };
+  static constexpr std::size_t batch = 8, gather_batch = 64;  // of rows: few, since quiet scenes have few
+
+  template <class X, class V, class G, class T, class E>
+  ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute) {
+    require_size(f, x.size(), "contact forces");
+    const ContactReport<S> report = survey(x, v, F, dt, execute);
+    if (report.contacts > 0)
+      hand_out([&](const typename Lists::Awake& own, const Point& force) { f.add(own.particle, force); }, execute);
+    return report;
+  }
+  /// The forces of all rows that touch, for `hand_out`.
+  template <class X, class V, class G, class E>
+  ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
+
+  template <class X, class V, class G>
+  bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
+  [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
+
+  void resize();
+  template <class X, class V, class G, class E>
+  void gather(const X& x, const V& v, const G& F, const E& execute);
+  template <class E>
+  void weigh(const E& execute);
+  template <class Take, class E>
+  void hand_out(const Take& take, const E& execute) const;
+
+  ContactSettings settings_;
+  Lists lists_;
+  std::vector<Master> masters_;  // per awake particle
+  std::vector<Moving> moving_;
+  // Per candidate, row by row, c / C where the row touches; and master by master, 0 where it does not.
+  std::vector<S> weight_, entry_weight_;
+  std::vector<RowState> state_;  // per row
+  std::vector<Quad> force_;
+  std::vector<Index> batch_rows_, touching_;
+  std::vector<Batch> batches_;
+  std::vector<S> load_;  // per awake particle: N
+  std::vector<Seat> seats_;
+  std::uint32_t call_ = 1;
+};
+
+}  // namespace hmps::inline HMPS_ABI
