@@ -111,7 +111,7 @@ template <class Field, class Cloud, class E>
 ///
 /// The body is the part of `shape` in `box`. Its thickness is that of the largest balls in it that touch opposite
 /// sides, up to eight spacings; what is thicker is bulk, where the inner layers fade. A wall of thickness t has
-/// n = t / spacing layers, rounded, and at least `least_layers`, which lie t / n apart: 0.8 to 1.25 spacings from two
+/// n = t / spacing layers, rounded, and at least `least_layers`, which lie t / n apart: 0.75 to 1.25 spacings from two
 /// layers on, and less only where `least_layers` asks for it. Each particle stands for spacing^D whatever n: where
 /// layers are closer, particles of a layer are wider apart, so that a force that takes all volumes as equal is right
 /// in sum. Start: a particle wherever that volume of a layer has been passed along a space-filling curve. Then
