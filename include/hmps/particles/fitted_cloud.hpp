@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/particles/fitted_field.hpp"
+#include "hmps/search/grid.hpp"
+
+namespace hmps::detail {
+
+/// The particles of a `FittedField` on their way: spread over the layers by volume, then pushed apart within them.
+template <class Field, int D>
+class FittedCloud {
+ public:
+  using Point = Vector<double, D>;
+
+  struct Particle {
+    Point place;
+    Point moved = Point::Zero();  // in the last iteration
+    Point push = Point::Zero();
+    Point safe = Point::Zero();  // where it was last in the body, and that thick enough
+    // What was seen at the last look, and where.
+    Point seen = Point::Zero(), slope = Point::Zero();
+    double depth = 0;
+    Layering layers;
+  };
+
+  /// Walls with layers closer than `thinnest` (m) get no particles.
+  FittedCloud(const Field& field, double thinnest) : field_(field), thinnest_(thinnest) {}
+
+  [[nodiscard]] const std::vector<Particle>& particles() const { return particles_; }
+
+  /// Puts a particle wherever a volume of spacing^D of the same layer has been passed along the samples.
+  template <class E>
+  void seed(const E& execute) {
+    const auto& samples = field_.samples();
+    constexpr int most = Field::most_layers;
+    std::vector<int> layer(samples.size());
+    execute(samples.size(), [&](std::size_t k) {
+      const Layering here = field_.layering(samples[k].place);
+      layer[k] = here.spacing < thinnest_ ? -1 : std::min(here.layer(-field_(samples[k].place)), most);
+    });
+    const double share = std::pow(field_.spacing(), D);
+    std::array<double, most + 1> passed;
+    passed.fill(0.5);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      if (layer[k] < 0) continue;
+      double& sum = passed[static_cast<std::size_t>(layer[k])];
+      sum += samples[k].volume / share;
+      if (sum < 1) continue;
+      sum -= 1;
+      Particle particle;
+      particle.place = particle.safe = samples[k].place;
+      particles_.push_back(particle);
+    }
+    require(particles_.size() < std::numeric_limits<Index>::max(), "hmps: the shape holds ", particles_.size(),
+            " particles, more than an index of 32 bits can name; give a larger spacing");
+  }
+
+  /// One iteration, at the share `left` of the way still to go. Returns the longest move in m.
+  template <class E>
+  double iterate(int iteration, double left, const E& execute) {
+    if (iteration % between_looks == 0) {
+      execute(particles_.size(), [&](std::size_t i) { look(particles_[i]); });
+      find_neighbours(execute);
+    }
+    execute(particles_.size(), [&](std::size_t i) { push(i); });
+    const double l0 = field_.spacing(), most = 0.2 * l0 * left, gain = 0.1 * l0 * std::min(1.0, 2 * left);
+    execute(particles_.size(), [&](std::size_t i) {
+      Particle& p = particles_[i];
+      p.moved = 0.8 * p.moved + gain * p.push;
+      const double size = p.moved.norm();
+      if (size > most) p.moved *= most / size;
+      p.place += p.moved;
+      level(p);
+    });
+    return reduce(
+        particles_.size(), 0.0, [&](std::size_t i) { return particles_[i].moved.norm(); },
+        [](double a, double b) { return std::max(a, b); }, execute);
+  }
+
+  /// Moves all particles exactly to the middle of their layers.
+  template <class E>
+  void settle(const E& execute) {
+    constexpr int most_corrections = 20;
+    execute(particles_.size(), [&](std::size_t i) {
+      Particle& p = particles_[i];
+      for (int k = 0; k < most_corrections; ++k) look(p), level(p);
+      look(p);
+      if (!(p.depth > 0)) go_back(p), look(p);
+    });
+  }
+
+ private:
+  static constexpr int between_looks = 8;
+  static constexpr double range = 1.6;  // of the repulsion in spacings
+
+  /// Takes depth, slope and layers anew. A particle that got where the body is too thin goes back.
+  void look(Particle& p) const {
+    p.layers = field_.layering(p.place);
+    if (p.layers.spacing < thinnest_) go_back(p);
+    p.seen = p.place;
+    p.depth = -field_(p.place);
+    p.slope = field_.gradient(p.place);
+    if (p.depth > 0) p.safe = p.place;
+  }
+
+  void go_back(Particle& p) const {
+    p.place = p.safe;
+    p.moved.setZero();
+    p.layers = field_.layering(p.place);
+  }
+
+  /// Moves a particle to the middle of its layer, as far as the layer holds it, on the surface as seen last.
+  static void level(Particle& p) {
+    const double slope = p.slope.squaredNorm();
+    if (slope < 0.3) return;  // on the middle surface
+    const double depth = p.depth - p.slope.dot(p.place - p.seen);
+    const int layer = p.layers.layer(depth);
+    const double hold = p.layers.hold(layer);
+    p.place += hold * (depth - p.layers.level(layer)) / slope * p.slope;
+    p.moved -= hold * p.moved.dot(p.slope) / slope * p.slope;
+  }
+
+  template <class E>
+  void find_neighbours(const E& execute) {
+    const double reach = (range + 0.4) * field_.spacing();
+    near_.resize(particles_.size());
+    grid_.build(particles_.size(), reach / 2, [&](std::size_t i) { return particles_[i].place; });
+    execute(particles_.size(), [&](std::size_t i) {
+      near_[i].clear();
+      grid_.visit(particles_[i].place, reach, [&](Index j, double) {
+        if (j != i) near_[i].push_back(j);
+      });
+    });
+  }
+
+  void push(std::size_t i) {
+    const double reach = range * field_.spacing();
+    Point sum = Point::Zero();
+    for (const Index j : near_[i]) {
+      const Point r = particles_[i].place - particles_[j].place;
+      const double distance = r.norm(), share = 1 - distance / reach;
+      if (share <= 0) continue;
+      if (distance > 0)
+        sum += share * share / distance * r;
+      else  // at one place: apart along the first axis
+        sum[0] += i < j ? -1 : 1;
+    }
+    particles_[i].push = sum;
+  }
+
+  const Field& field_;
+  double thinnest_;
+  std::vector<Particle> particles_;
+  std::vector<std::vector<Index>> near_;
+  Grid<double, D> grid_;
+};
+
+}  // namespace hmps::detail

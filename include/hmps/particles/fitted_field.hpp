@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/particles/lattice.hpp"
+#include "hmps/search/grid.hpp"
+#include "hmps/shapes/implicit.hpp"
+
+namespace hmps::detail {
+
+/// A part of the body: the volume of a cell of the sampling grid that lies inside, and its centroid.
+template <int D>
+struct Sample {
+  Vector<double, D> place;  // m
+  double volume;            // m3
+};
+
+/// A point of the surface, and how thick the body is behind it.
+template <int D>
+struct SurfacePoint {
+  Vector<double, D> place, outward;
+  double least = 0;      // m, twice the radius of the largest ball inside that touches the surface here
+  double thickness = 0;  // m; 0: that ball touches no opposite side but an edge
+};
+
+/// How the layers lie at a place: `count` of them across, `spacing` apart, or any number in what is thick.
+struct Layering {
+  double thickness = 0;  // m
+  double spacing = 0;    // m
+  int count = 0;
+  bool thick = true;
+
+  /// The layer of a particle at `depth`, counted from the nearest surface.
+  [[nodiscard]] int layer(double depth) const {
+    const int at = std::max(static_cast<int>(depth / spacing), 0);
+    return thick ? at : std::min(at, (count - 1) / 2);
+  }
+  /// The depth in the middle of a layer.
+  [[nodiscard]] double level(int layer) const { return (layer + 0.5) * spacing; }
+  /// How firmly particles are held there: the inner layers of what is thick fade into the bulk.
+  [[nodiscard]] double hold(int layer) const { return !thick || layer == 0 ? 1 : layer < 4 ? std::pow(0.5, layer) : 0; }
+};
+
+/// The part of a shape that lies in a box, in double whatever the scalar of the shape, with its samples, its surface
+/// and its thickness.
+template <class F, class S, int D>
+class FittedField {
+ public:
+  using Point = Vector<double, D>;
+  static constexpr int dimension = D;
+  static constexpr int samples_per_spacing = 4;
+  static constexpr int most_layers = 8;  // across thin walls; what is thicker is bulk
+
+  FittedField(const F& shape, const Box<S, D>& box, double spacing, int least_layers)
+      : shape_(shape),
+        box_{box.lower.template cast<double>(), box.upper.template cast<double>()},
+        spacing_(spacing),
+        least_layers_(least_layers) {
+    (void)lattice_sites<S, D>(box, static_cast<S>(spacing), box.lower);  // for its errors
+    require((box.lower.array() < box.upper.array()).all(), "hmps: the box to fit particles in reaches from (",
+            box.lower.transpose(), ") to (", box.upper.transpose(), ") and has no volume; give an upper corner above");
+  }
+
+  /// Signed distance in m, negative inside. Throws `InputError` where the shape is NaN.
+  [[nodiscard]] double operator()(const Point& x) const {
+    const double d = static_cast<double>(static_cast<S>(shape_(Vector<S, D>(x.template cast<S>()))));
+    if (d != d)
+      throw InputError(
+          message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+    return std::max(d, box_(x));
+  }
+
+  /// Gradient of the distance by central differences over a fiftieth of a spacing: zero across a middle surface.
+  [[nodiscard]] Point gradient(const Point& x) const {
+    const double reach = 0.02 * spacing_;
+    Point g;
+    for (int c = 0; c < D; ++c) {
+      Point a = x, b = x;
+      a[c] -= reach;
+      b[c] += reach;
+      g[c] = ((*this)(b) - (*this)(a)) / (2 * reach);
+    }
+    return g;
+  }
+
+  /// Samples the body and its surface: cells of one spacing along a space-filling curve, and 4^D samples in each.
+  template <class E>
+  void sample(const E& execute);
+
+  /// Measures the thickness behind every point of the surface.
+  template <class E>
+  void measure(const E& execute);
+
+  /// The layers at a place: of the mean thickness behind the points of the surface around it.
+  [[nodiscard]] Layering layering(const Point& x) const {
+    if (-(*this)(x) >= most_layers * spacing_ / 2) return {most_layers * spacing_, spacing_, most_layers, true};
+    const double near = 1.5 * spacing_, far = 13 * spacing_;
+    double weight = 0, sum = 0, least = 0;
+    for (double radius = near; radius < far && !(weight > 0); radius *= 2) {
+      grid_.visit(x, radius, [&](Index k, double squared) {
+        const SurfacePoint<D>& point = surface_[k];
+        if (radius > near) least = std::max(least, point.least);
+        if (!(point.thickness > 0)) return;
+        const double w = 1 - std::sqrt(squared) / radius;
+        weight += w * w;
+        sum += w * w * point.thickness;
+      });
+      if (least >= most_layers * spacing_) break;
+    }
+    const double thickness = std::max(weight > 0 ? sum / weight : most_layers * spacing_, least);
+    // Walls of half a layer too much are rounded up all over, whatever the rounding of their thickness.
+    const int count = std::max(least_layers_, static_cast<int>(thickness / spacing_ + 0.501));
+    return {thickness, thickness / count, count, thickness > (most_layers - 0.01) * spacing_};
+  }
+
+  [[nodiscard]] const std::vector<Sample<D>>& samples() const { return samples_; }
+  [[nodiscard]] double spacing() const { return spacing_; }
+
+ private:
+  using Cell = std::array<std::int64_t, D>;
+  struct Found {
+    std::vector<Sample<D>> samples;
+    std::vector<SurfacePoint<D>> surface;
+  };
+
+  /// The bits of the numbers of a cell in turn: near in order means near in space.
+  [[nodiscard]] static std::uint64_t along_curve(const Cell& cell) {
+    std::uint64_t code = 0;
+    for (int bit = 0; bit < 63 / D; ++bit)
+      for (int c = 0; c < D; ++c)
+        code |= (static_cast<std::uint64_t>(cell[static_cast<std::size_t>(c)]) >> bit & 1U) << (bit * D + c);
+    return code;
+  }
+
+  /// The place of part `k` of `parts`^D of the cube around `centre`, parts a power of two, along the same curve.
+  [[nodiscard]] static Point part(const Point& centre, double edge, int parts, int k) {
+    Point x = centre;
+    for (int c = 0; c < D; ++c) {
+      int at = 0;
+      for (int bit = 0; 1 << bit < parts; ++bit) at |= (k >> (bit * D + c) & 1) << bit;
+      x[c] += edge * ((at + 0.5) / parts - 0.5);
+    }
+    return x;
+  }
+
+  void sample_cell(const Point& centre, Found& found) const;
+
+  const F& shape_;
+  Box<double, D> box_;
+  double spacing_;
+  int least_layers_;
+  std::vector<Sample<D>> samples_;
+  std::vector<SurfacePoint<D>> surface_;
+  Grid<double, D> grid_;
+};
+
+template <class F, class S, int D>
+void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const {
+  constexpr int parts = samples_per_spacing, total = D == 3 ? parts * parts * parts : parts * parts;
+  const double edge = spacing_ / parts, volume = std::pow(edge, D), fine = edge / parts;
+  const double half_diagonal = 0.5 * std::sqrt(static_cast<double>(D)) * edge;
+  double nearest = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  Point at = centre;
+  for (int k = 0; k < total; ++k) {
+    const Point x = part(centre, spacing_, parts, k);
+    const double d = (*this)(x);
+    inside = inside || d < 0;
+    if (std::abs(d) < nearest) nearest = std::abs(d), at = x;
+    // Distances may be a quarter too long before a cut cell is missed.
+    if (d < -1.25 * half_diagonal) {
+      found.samples.push_back({x, volume});
+    } else if (d < 1.25 * half_diagonal) {
+      Point sum = Point::Zero();
+      double share = 0;
+      for (int m = 0; m < total; ++m) {
+        const Point y = part(x, edge, parts, m);
+        const double covered = std::clamp(0.5 - (*this)(y) / fine, 0.0, 1.0) / total;
+        share += covered;
+        sum += covered * y;
+      }
+      if (share > 0) found.samples.push_back({sum / share, share * volume});
+    }
+  }
+  // Not only where the sign changes: a face may lie between two cells.
+  if (!inside || nearest > 1.25 * half_diagonal) return;
+  for (int step = 0; step < 4; ++step) {
+    const Point g = gradient(at);
+    if (!(g.squaredNorm() > 0.25)) return;
+    at -= (*this)(at) / g.squaredNorm() * g;
+  }
+  const Point g = gradient(at - 0.05 * spacing_ * gradient(at));
+  if (g.squaredNorm() > 0.8 && std::abs((*this)(at)) < 0.01 * spacing_) found.surface.push_back({at, g.normalized()});
+}
+
+template <class F, class S, int D>
+template <class E>
+void FittedField<F, S, D>::sample(const E& execute) {
+  std::array<std::size_t, D> count{};
+  std::size_t total = 1;
+  for (int c = 0; c < D; ++c) {
+    const double cells = std::ceil((box_.upper[c] - box_.lower[c]) / spacing_);
+    count[static_cast<std::size_t>(c)] = std::max<std::size_t>(1, static_cast<std::size_t>(cells));
+    total *= count[static_cast<std::size_t>(c)];
+  }
+  const std::size_t slabs = count[D - 1], slab = total / slabs;
+  std::vector<std::vector<std::pair<std::uint64_t, Found>>> found(slabs);
+  const double reach = 0.75 * std::sqrt(static_cast<double>(D)) * spacing_;
+  execute(slabs, [&](std::size_t s) {
+    for (std::size_t k = 0; k < slab; ++k) {
+      Cell cell{};
+      std::size_t rest = s * slab + k;
+      Point centre;
+      for (std::size_t c = 0; c < D; ++c, rest /= count[c - 1]) {
+        cell[c] = static_cast<std::int64_t>(rest % count[c]);
+        const auto axis = static_cast<int>(c);
+        centre[axis] = box_.lower[axis] + (static_cast<double>(cell[c]) + 0.5) * spacing_;
+      }
+      if ((*this)(centre) > reach) continue;
+      Found here;
+      sample_cell(centre, here);
+      if (!here.samples.empty()) found[s].emplace_back(along_curve(cell), std::move(here));
+    }
+  });
+  std::vector<std::pair<std::uint64_t, const Found*>> order;
+  for (const auto& part : found)
+    for (const auto& [code, here] : part) order.emplace_back(code, &here);
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [code, here] : order) {
+    samples_.insert(samples_.end(), here->samples.begin(), here->samples.end());
+    surface_.insert(surface_.end(), here->surface.begin(), here->surface.end());
+  }
+  require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower.transpose(), ") to (",
+          box_.upper.transpose(), "); give a shape that is negative inside, and a box around it in metres");
+}
+
+template <class F, class S, int D>
+template <class E>
+void FittedField<F, S, D>::measure(const E& execute) {
+  const double most = most_layers * spacing_, step = spacing_ / 8;
+  execute(surface_.size(), [&](std::size_t k) {
+    SurfacePoint<D>& point = surface_[k];
+    // The largest ball that touches the surface here from within: it grows until it touches elsewhere.
+    for (double r = step; r <= most / 2; r += step) {
+      const Point centre = point.place - r * point.outward;
+      const double depth = -(*this)(centre);
+      if (depth > 0.9 * r && r + step <= most / 2) continue;
+      if (depth > 0.9 * r) {
+        point.least = point.thickness = most;
+        break;
+      }
+      point.least = 1.9 * (r - step);  // no ball is larger than the wall
+      // A little further, so that the difference is that of the other side.
+      const Point other = point.place - (r + step / 2) * point.outward;
+      const Point g = gradient(other);
+      if (g.dot(point.outward) < -0.3) point.thickness = std::min(most, r + step / 2 - (*this)(other));
+      break;
+    }
+  });
+  grid_.build(surface_.size(), 1.5 * spacing_, [&](std::size_t k) { return surface_[k].place; });
+}
+
+}  // namespace hmps::detail

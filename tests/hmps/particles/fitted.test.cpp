@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/particles/fitted.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hmps/bonds/bond_list.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/particles/support.hpp"
+#include "hmps/search/fixed_radius.hpp"
+#include "hmps/shapes/combine.hpp"
+
+namespace {
+
+using hmps::Box;
+using hmps::fit_particles;
+using hmps::Vector;
+using V3 = Vector<double, 3>;
+
+template <class V>
+[[nodiscard]] double sum(const V& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// The distance of the two nearest particles.
+template <class S, int D>
+[[nodiscard]] double nearest(const std::vector<Vector<S, D>>& points, double reach) {
+  const auto list = hmps::find_neighbours(hmps::vectors(points), static_cast<S>(reach));
+  double least = reach;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const hmps::Index j : list[i]) least = std::min(least, static_cast<double>((points[i] - points[j]).norm()));
+  return least;
+}
+
+/// A plate of 10 x 8 x `thickness`, turned by 65 degrees about y and moved off the lattice.
+struct Plate {
+  double thickness;
+  hmps::Matrix<double, 3> turn = [] {
+    const double c = std::cos(65 * 3.14159265358979 / 180), s = std::sin(65 * 3.14159265358979 / 180);
+    hmps::Matrix<double, 3> rotation;
+    rotation << c, 0, -s, 0, 1, 0, s, 0, c;
+    return rotation;
+  }();
+  V3 moved{0.31, 0.17, 0.43};
+
+  [[nodiscard]] V3 local(const V3& x) const { return turn.transpose() * (x - moved); }
+  [[nodiscard]] double operator()(const V3& x) const {
+    return Box<double, 3>{V3::Zero(), V3(10, 8, thickness)}(local(x));
+  }
+  [[nodiscard]] double volume() const { return 80 * thickness; }
+  [[nodiscard]] static Box<double, 3> box() { return {V3(-6, -1, -1), V3(6, 10, 13)}; }
+};
+
+TEST(FitParticles, FillsATiltedPlateWithWholeLayers) {
+  for (const double thickness : {2.0, 2.7, 3.0, 4.0}) {
+    const Plate plate{thickness};
+    const auto fitted = fit_particles(plate, Plate::box(), 1.0);
+    const int layers = static_cast<int>(std::lround(thickness));
+    const double apart = thickness / layers;
+    // One for each cube of the spacing, up to one for each layer by rounding.
+    EXPECT_NEAR(static_cast<double>(fitted.size()), plate.volume(), layers);
+    std::vector<int> count(static_cast<std::size_t>(layers));
+    for (const V3& x : fitted.positions) {
+      // Away from the narrow faces, along which the layers run around.
+      const V3 at = plate.local(x);
+      const double rim = std::min({at[0], 10 - at[0], at[1], 8 - at[1]});
+      if (rim < thickness / 2 + 0.1) continue;
+      const double layer = at[2] / apart - 0.5;
+      EXPECT_NEAR(layer, std::round(layer), 0.03) << thickness << ": " << at.transpose();
+      ++count[static_cast<std::size_t>(std::clamp(std::lround(layer), 0L, layers - 1L))];
+    }
+    for (const int n : count) EXPECT_NEAR(n, sum(count) / layers, 0.15 * sum(count) / layers) << thickness;
+    EXPECT_LT(fitted.largest_distance, 1e-9);
+    EXPECT_GT(nearest(fitted.positions, 1.5), 0.55);
+    EXPECT_TRUE(hmps::find_weak(hmps::vectors(fitted.positions), {.spacing = 1}).empty());
+    EXPECT_NO_THROW((hmps::BondList<double, 3>(hmps::vectors(fitted.positions), {.spacing = 1})));
+  }
+}
+
+TEST(FitParticles, KeepsTheOutermostLayerHalfALayerInside) {
+  const Plate plate{3.0};
+  const auto fitted = fit_particles(plate, Plate::box(), 1.0);
+  double least = 1e9;
+  std::size_t outermost = 0;
+  for (const V3& x : fitted.positions) {
+    least = std::min(least, -plate(x));
+    outermost += -plate(x) < 0.5 + 1e-9;
+  }
+  EXPECT_NEAR(least, 0.5, 1e-9);
+  // The volume of the layer: what a box of two less in each extent leaves.
+  EXPECT_NEAR(static_cast<double>(outermost), plate.volume() - 8 * 6 * 1, 0.1 * plate.volume());
+}
+
+TEST(FitParticles, SharesOutTheVolume) {
+  for (const double radius : {1.2, 3.0, 4.3}) {
+    const hmps::Ball<double, 3> ball{.radius = radius};
+    const auto fitted = fit_particles(ball, Box<double, 3>{V3::Constant(-5), V3::Constant(5)}, 1.0);
+    const double volume = 4 * 3.14159265358979 / 3 * radius * radius * radius;
+    EXPECT_NEAR(sum(fitted.volumes), volume, 1e-3 * volume);
+    EXPECT_NEAR(static_cast<double>(fitted.size()), volume, 4);
+    EXPECT_LT(fitted.largest_distance, 1e-9);
+    ASSERT_EQ(fitted.volumes.size(), fitted.size());
+    for (const double v : fitted.volumes) EXPECT_NEAR(v, volume / static_cast<double>(fitted.size()), 0.35);
+  }
+  const Plate plate{2.7};
+  EXPECT_NEAR(sum(fit_particles(plate, Plate::box(), 1.0, {.iterations = 1}).volumes), plate.volume(),
+              1e-3 * plate.volume());
+}
+
+TEST(FitParticles, FillsACurvedShellWithWholeLayers) {
+  const hmps::Ball<double, 3> ball{.radius = 7};
+  const auto half = hmps::intersect(hmps::shell(ball, 2.8), hmps::HalfSpace<double, 3>{V3::Zero(), V3(0, 0, 1)});
+  const auto fitted = fit_particles(half, Box<double, 3>{V3(-9, -9, -9), V3(9, 9, 1)}, 1.0);
+  std::vector<int> count(3);
+  for (const V3& x : fitted.positions) {
+    if (x[2] > -1.5) continue;
+    const double layer = (ball(x) + 1.4) / (2.8 / 3) - 0.5;
+    EXPECT_NEAR(layer, std::round(layer), 0.03) << x.transpose();
+    ++count[static_cast<std::size_t>(std::clamp(std::lround(layer), 0L, 2L))];
+  }
+  // Each layer has the share of its volume, (r + s / 2)^3 - (r - s / 2)^3.
+  const double s = 2.8 / 3, all = std::pow(8.4, 3) - std::pow(5.6, 3);
+  for (int k = 0; k < 3; ++k) {
+    const double share = (std::pow(5.6 + (k + 1) * s, 3) - std::pow(5.6 + k * s, 3)) / all;
+    EXPECT_NEAR(count[static_cast<std::size_t>(k)] / sum(count), share, 0.02) << k;
+  }
+  EXPECT_LT(fitted.largest_distance, 1e-6);
+}
+
+TEST(FitParticles, WorksInTwoDimensionsAndInFloat) {
+  using V = Vector<float, 2>;
+  const auto ring = hmps::shell(hmps::Ball<float, 2>{.radius = 8.0F}, 3.0F);
+  const auto fitted = fit_particles(ring, Box<float, 2>{V(-10, -10), V(10, 10)}, 1.0F);
+  const double area = 2 * 3.14159265358979 * 8 * 3;
+  EXPECT_NEAR(sum(fitted.volumes), area, 1e-3 * area);
+  EXPECT_NEAR(static_cast<double>(fitted.size()), area, 3);
+  for (const V& x : fitted.positions) {
+    const double layer = static_cast<double>(x.norm()) - 7;
+    EXPECT_NEAR(layer, std::round(layer), 0.03);
+  }
+  EXPECT_GT(nearest(fitted.positions, 1.5), 0.7);
+}
+
+TEST(FitParticles, FillsAThickBody) {
+  const Box<double, 3> cube{V3::Constant(0.3), V3::Constant(10.3)};
+  const auto fitted = fit_particles(cube, Box<double, 3>{V3::Zero(), V3::Constant(11)}, 1.0);
+  EXPECT_NEAR(static_cast<double>(fitted.size()), 1000, 6);
+  EXPECT_NEAR(sum(fitted.volumes), 1000, 1);
+  EXPECT_GT(nearest(fitted.positions, 1.5), 0.6);
+  for (const double v : fitted.volumes) EXPECT_NEAR(v, 1, 0.55);
+}
+
+TEST(FitParticles, LeavesThinEdgesToTheirNeighboursAndFillsJunctions) {
+  // A wedge of 30 degrees: 1.2 thick at 2.2 from its edge.
+  const double a = 15 * 3.14159265358979 / 180;
+  const auto wedge = hmps::intersect(hmps::HalfSpace<double, 3>{V3::Zero(), V3(-std::sin(a), 0, std::cos(a))},
+                                     hmps::HalfSpace<double, 3>{V3::Zero(), V3(-std::sin(a), 0, -std::cos(a))},
+                                     Box<double, 3>{V3(-1, 0, -4), V3(10, 6, 4)});
+  const auto fitted = fit_particles(wedge, Box<double, 3>{V3(-1, -1, -4), V3(11, 7, 4)}, 1.0);
+  const double volume = 10 * 10 * std::tan(a) * 6;
+  EXPECT_NEAR(sum(fitted.volumes), volume, 1e-3 * volume);
+  for (const V3& x : fitted.positions) EXPECT_LT(wedge(x), 0) << x.transpose();
+  EXPECT_THROW((void)fit_particles(wedge, Box<double, 3>{V3(-1, -1, -4), V3(11, 7, 4)}, 1.0, {.longest_edge = 1.5}),
+               hmps::InputError);
+
+  const auto junction =
+      hmps::unite(Box<double, 3>{V3(-6, 0, 0), V3(6, 6, 2)}, Box<double, 3>{V3(-1, 0, 1), V3(1, 6, 8)});
+  const auto joined = fit_particles(junction, Box<double, 3>{V3(-7, -1, -1), V3(7, 7, 9)}, 1.0);
+  EXPECT_NEAR(sum(joined.volumes), 216, 0.2);
+  EXPECT_NEAR(static_cast<double>(joined.size()), 216, 4);
+  // Where the number of layers changes they may end between two levels.
+  EXPECT_LT(joined.largest_distance, 0.02);
+  EXPECT_GT(nearest(joined.positions, 1.5), 0.5);
+}
+
+/// Runs the loop backwards on two threads.
+struct TwoThreads {
+  template <class Body>
+  void operator()(std::size_t n, Body&& body) const {
+    std::thread other([&] {
+      for (std::size_t i = n; i-- > n / 2;) body(i);
+    });
+    for (std::size_t i = n / 2; i-- > 0;) body(i);
+    other.join();
+  }
+};
+
+TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
+  const Plate plate{2.7};
+  const hmps::FitSettings settings{.iterations = 30};
+  const auto a = fit_particles(plate, Plate::box(), 1.0, settings);
+  const auto b = fit_particles(plate, Plate::box(), 1.0, settings, TwoThreads{});
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.volumes, b.volumes);
+  EXPECT_EQ(a.largest_distance, b.largest_distance);
+}
+
+TEST(FitParticles, TellsItsProgress) {
+  const hmps::Ball<double, 3> ball{.radius = 2};
+  int calls = 0;
+  double move = 0;
+  const auto fitted = fit_particles(ball, Box<double, 3>{V3::Constant(-3), V3::Constant(3)}, 1.0, {.iterations = 40},
+                                    hmps::Serial{}, [&](const hmps::FitProgress& progress) {
+                                      EXPECT_EQ(progress.iteration, ++calls);
+                                      EXPECT_EQ(progress.iterations, 40);
+                                      move = progress.move;
+                                    });
+  EXPECT_EQ(calls, 40);
+  EXPECT_EQ(fitted.iterations, 40);
+  EXPECT_LE(move, 0.2 / 40 + 1e-12);
+}
+
+template <class Fit>
+[[nodiscard]] std::string refusal(Fit&& fit) {
+  try {
+    fit();
+  } catch (const hmps::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(FitParticles, RefusesWhatCannotBeFitted) {
+  const hmps::Ball<double, 3> ball{.radius = 2};
+  const Box<double, 3> box{V3::Constant(-3), V3::Constant(3)};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto starts = [](const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; };
+  for (const double spacing : {0.0, -1.0, nan})
+    EXPECT_TRUE(starts(refusal([&] { (void)fit_particles(ball, box, spacing); }), "hmps: the lattice spacing is "));
+  EXPECT_TRUE(starts(refusal([&] {
+                       (void)fit_particles(ball, Box<double, 3>{box.upper, box.lower}, 1.0);
+                     }),
+                     "hmps: the box"));
+  EXPECT_TRUE(starts(refusal([&] {
+                       (void)fit_particles(ball, Box<double, 3>{V3(0, 0, 0), V3(1, 1, 0)}, 1.0);
+                     }),
+                     "hmps: the box to fit particles in"));
+  EXPECT_TRUE(starts(refusal([&] { (void)fit_particles(hmps::Ball<double, 3>{.radius = -1}, box, 1.0); }),
+                     "hmps: the shape has no volume in the box"));
+  EXPECT_TRUE(
+      starts(refusal([&] { (void)fit_particles([&](const V3& x) { return x[0] > 1 ? nan : ball(x); }, box, 1.0); }),
+             "hmps: the shape is NaN at ("));
+  for (const hmps::FitSettings& bad :
+       {hmps::FitSettings{.least_layers = 0}, hmps::FitSettings{.least_layers = 9},
+        hmps::FitSettings{.thinnest_spacing = 0}, hmps::FitSettings{.thinnest_spacing = 1.1},
+        hmps::FitSettings{.longest_edge = 0}, hmps::FitSettings{.iterations = 0}})
+    EXPECT_NE(refusal([&] { (void)fit_particles(ball, box, 1.0, bad); }), "none");
+
+  // A plate of one spacing holds one layer, not two of the default; a fin of it is found on a body that is thick.
+  const Box<double, 3> plate{V3(-2.5, -2.5, 0), V3(2.5, 2.5, 1)};
+  EXPECT_TRUE(starts(refusal([&] { (void)fit_particles(plate, box, 1.0); }), "hmps: the body is about 1 m thick at ("));
+  EXPECT_NEAR(static_cast<double>(fit_particles(plate, box, 1.0, {.least_layers = 1}).size()), 25, 1);
+  const auto finned =
+      hmps::unite(Box<double, 3>{V3(-3, -3, -3), V3(3, 3, 3)}, Box<double, 3>{V3(0, -3, 0), V3(12, 3, 0.8)});
+  const std::string text = refusal([&] {
+    (void)fit_particles(finned, Box<double, 3>{V3(-4, -4, -4), V3(13, 4, 4)}, 1.0);
+  });
+  EXPECT_TRUE(starts(text, "hmps: the body is about 0.8 m thick at (")) << text;
+}
+
+}  // namespace
