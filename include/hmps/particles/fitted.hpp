@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
@@ -18,7 +19,7 @@
 #include "hmps/search/grid.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace hmps {
+namespace hmps::inline HMPS_ABI {
 
 /// How `fit_particles` fits.
 struct FitSettings {
@@ -162,4 +163,4 @@ requires Shape<F, S, D>
   return result;
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI

@@ -8,13 +8,14 @@
 #include <limits>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/particles/fitted_field.hpp"
 #include "hmps/search/grid.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// The particles of a `FittedField` on their way: spread over the layers by volume, then pushed apart within them.
 template <class Field, int D>
@@ -165,4 +166,4 @@ class FittedCloud {
   Grid<double, D> grid_;
 };
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail

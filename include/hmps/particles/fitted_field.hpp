@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
@@ -17,7 +18,7 @@
 #include "hmps/search/grid.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace hmps::detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// A part of the body: the volume of a cell of the sampling grid that lies inside, and its centroid.
 template <int D>
@@ -271,4 +272,4 @@ void FittedField<F, S, D>::measure(const E& execute) {
   grid_.build(surface_.size(), 1.5 * spacing_, [&](std::size_t k) { return surface_[k].place; });
 }
 
-}  // namespace hmps::detail
+}  // namespace hmps::inline HMPS_ABI::detail
