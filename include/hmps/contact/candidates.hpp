@@ -174,6 +174,11 @@ class Candidates {
 
   /// In evaluations of one candidate.
   [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle_.size(); }
+  [[nodiscard]] static bool may_be_slave(const Pair& pair, Index particle) {
+    return !std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle);
+  }
+  void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
+  [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
   void add_side(std::size_t slaves, std::size_t masters);
   void number();
   template <class X, class Gradients, class E>

@@ -41,17 +41,28 @@ std::size_t Candidates<S, D, Ball>::add_pair(std::size_t a, std::size_t b, const
             organs[a].name, "' and '", organs[b].name, "'; a pair needs organs without common particles");
     members_[m].particle < members_[k].particle ? ++m : ++k;
   }
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    require(!(pairs[p].first == a && pairs[p].second == b) && !(pairs[p].first == b && pairs[p].second == a),
+            "hmps: organs '", organs[a].name, "' and '", organs[b].name, "' already are contact pair ", p,
+            "; declare a pair once (the order does not matter), or its forces count twice");
   std::vector<Index> excluded(settings.excluded_slaves.begin(), settings.excluded_slaves.end());
   std::sort(excluded.begin(), excluded.end());
-  pairs.push_back({a, b, std::move(excluded), settings.excluded});
-  if (settings.roles != Roles::only_second_is_slave) add_side(a, b);
-  if (settings.roles != Roles::only_first_is_slave) add_side(b, a);
+  const Pair pair{a, b, std::move(excluded), settings.excluded};
+  const bool first = settings.roles != Roles::only_second_is_slave,
+             second = settings.roles != Roles::only_first_is_slave;
+  if (first) check_side(a, b, pair);
+  if (second) check_side(b, a, pair);
+  pairs.push_back(pair);
+  if (first) add_side(a, b);
+  if (second) add_side(b, a);
   built_ = false;
   return pairs.size() - 1;
 }
 
+/// Throws `InputError` unless `slaves` has slaves and `masters` masters, and if another side has a slave and a master
+/// of this one too: each would push the other twice.
 template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
+void Candidates<S, D, Ball>::check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const {
   const auto any = [&](std::size_t o, std::uint8_t role) {
     for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
       if (members_[m].flags & role) return true;
@@ -61,6 +72,36 @@ void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
           organs[masters].name, "'; give it slaves, or let only the other be slave");
   require(any(masters, is_master), "hmps: organ '", organs[masters].name, "' has no masters but is to be touched by '",
           organs[slaves].name, "'; give it masters, or let only it be slave");
+  for (const Side& side : sides) {
+    const Pair& other = pairs[side.pair];
+    std::vector<Index> common_slaves = common(slaves, side.slaves, is_slave);
+    std::erase_if(common_slaves, [&](Index i) { return !may_be_slave(pair, i) || !may_be_slave(other, i); });
+    if (common_slaves.empty()) continue;
+    const std::vector<Index> common_masters = common(masters, side.masters, is_master);
+    for (const Index i : common_slaves)
+      for (const Index j : common_masters)
+        require((pair.excluded && pair.excluded(i, j)) || (other.excluded && other.excluded(i, j)), "hmps: slave ", i,
+                " would be pushed by master ", j, " twice: in the pair of '", organs[slaves].name, "' and '",
+                organs[masters].name, "', and in that of '", organs[side.slaves].name, "' and '",
+                organs[side.masters].name, "'; declare each body once, or exclude the slave from one of the pairs");
+  }
+}
+
+/// The particles that organs `a` and `b` both have in `role`, ascending.
+template <class S, int D, Metaball Ball>
+std::vector<Index> Candidates<S, D, Ball>::common(std::size_t a, std::size_t b, std::uint8_t role) const {
+  std::vector<Index> particles;
+  for (std::size_t m = organs[a].begin, k = organs[b].begin; m < organs[a].end && k < organs[b].end;) {
+    const Member &one = members_[m], &other = members_[k];
+    if (one.particle == other.particle && (one.flags & other.flags & role)) particles.push_back(one.particle);
+    m += one.particle <= other.particle;
+    k += other.particle <= one.particle;
+  }
+  return particles;
+}
+
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::add_side(std::size_t slaves, std::size_t masters) {
   sides.push_back({slaves, masters, pairs.size() - 1, seats, 0});
   seats += organs[slaves].end - organs[slaves].begin;
 }
@@ -142,7 +183,7 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
   for (std::size_t m = a.begin; m < a.end; ++m) {
     const Index i = members_[m].number;
     if (!(members_[m].flags & is_slave)) continue;
-    if (std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle_[i])) continue;
+    if (!may_be_slave(pair, particle_[i])) continue;
     low_a = low_a.cwiseMin(place_[i]);
     high_a = high_a.cwiseMax(place_[i]);
     const Point out = (low - place_[i]).cwiseMax(place_[i] - high);

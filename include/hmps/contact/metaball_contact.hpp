@@ -103,8 +103,10 @@ class MetaballContact {
   /// Declares an organ; the number returned names it in `add_pair`. Throws `InputError` if empty.
   std::size_t add_organ(const Organ& organ) { return lists_.add_organ(organ); }
 
-  /// Declares that two organs may touch. Throws `InputError` where they share a particle or lack slaves
-  /// or masters for their roles. Returns the pair's number.
+  /// Declares that two organs may touch. Returns the pair's number. Throws `InputError` where they share a particle or
+  /// lack slaves or masters for their roles, where they are a pair already, in either order, and where a slave would
+  /// meet the same master in the same role in another pair too (one body declared as two organs, say): the force
+  /// would count twice. Organs of different pairs may share slaves or masters otherwise.
   std::size_t add_pair(std::size_t first, std::size_t second, const PairSettings& settings = {}) {
     return lists_.add_pair(first, second, settings);
   }

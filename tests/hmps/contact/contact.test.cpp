@@ -376,18 +376,89 @@ TEST(Kick, IsWhatTheForcesGive) {
 }
 
 TEST(SharedParticles, AParticleInTwoOrgansGathersBothContacts) {
-  // The plate's top is one organ for the block and, with the same particles, another for a copy of it.
+  // The left and the right half of the block are organs of their own, each with an organ of the plate's top.
   bodies::Pile<double, 3> pile(0.9);
-  const auto make = [&](bool twice) {
+  std::vector<Index> left, right, left_wall, right_wall;
+  const auto is_left = [&](Index i) { return pile.x[i][0] < 4.5e-3; };
+  for (const Index i : pile.block.bottom) (is_left(i) ? left : right).push_back(i);
+  for (const Index i : pile.block.lower) (is_left(i) ? left_wall : right_wall).push_back(i);
+  ASSERT_FALSE(left.empty());
+  ASSERT_FALSE(right.empty());
+  const auto forces = [&](bool with_left, bool with_right) {
     MetaballContact<double, 3> contact(with_friction);
-    pile.declare(contact);
-    if (twice) pile.declare(contact);
+    const auto pair = [&](const std::vector<Index>& slaves, const std::vector<Index>& masters) {
+      const auto a =
+          contact.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .prescribed = {}});
+      contact.add_pair(a, contact.add_organ({.name = "half", .slaves = slaves, .masters = masters, .prescribed = {}}));
+    };
+    if (with_left) pair(left, left_wall);
+    if (with_right) pair(right, right_wall);
     pile.apply(contact, dt);
     return pile.f;
   };
-  const auto once = make(false), twice = make(true);
-  // Friction aside (nothing slides), every force doubles.
-  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_LE((2 * once[i] - twice[i]).norm(), 1e-9 * pile.magnitude());
+  const auto both = forces(true, true), one = forces(true, false), other = forces(false, true);
+  // Friction aside (nothing slides), forces add up.
+  for (std::size_t i = 0; i < both.size(); ++i)
+    EXPECT_LE((one[i] + other[i] - both[i]).norm(), 1e-9 * pile.magnitude());
+}
+
+/// The message of the `InputError` that `call` throws; empty if it throws none.
+template <class Call>
+std::string refusal(Call&& call) {
+  try {
+    call();
+  } catch (const hmps::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
+  const bodies::Pile<double, 3> pile(0.9);
+  const auto& [bottom, top, all, lower, upper] = pile.block;
+  struct Made {
+    MetaballContact<double, 3> contact{with_friction};
+    std::size_t plate, block;
+  };
+  const auto make = [&] {
+    Made made{.plate = 0, .block = 0};
+    made.plate = made.contact.add_organ(
+        {.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .prescribed = {}});
+    made.block = made.contact.add_organ({.name = "block", .slaves = bottom, .masters = lower, .prescribed = {}});
+    made.contact.add_pair(made.plate, made.block);
+    return made;
+  };
+  Made made = make();
+  const std::string again = refusal([&] { made.contact.add_pair(made.plate, made.block); });
+  EXPECT_NE(again.find("'plate' and 'block' already are contact pair 0"), std::string::npos) << again;
+  EXPECT_FALSE(refusal([&] { made.contact.add_pair(made.block, made.plate); }).empty()) << "reversed";
+
+  const auto twin = made.contact.add_organ({.name = "twin", .slaves = bottom, .masters = lower, .prescribed = {}});
+  const std::string twice = refusal([&] { made.contact.add_pair(made.plate, twin); });
+  EXPECT_NE(twice.find("'twin'"), std::string::npos) << twice;
+  EXPECT_NE(twice.find(std::to_string(pile.plate.top.front())), std::string::npos) << twice;
+  EXPECT_FALSE(refusal([&] { made.contact.add_pair(twin, made.plate); }).empty()) << "reversed";
+
+  // Of the two roles one is enough: slaves that the block has too, of the plate's masters.
+  const auto skin = made.contact.add_organ({.name = "skin", .slaves = bottom, .masters = {}, .prescribed = {}});
+  const hmps::PairSettings second{.roles = hmps::Roles::only_second_is_slave};
+  EXPECT_FALSE(refusal([&] { made.contact.add_pair(made.plate, skin, second); }).empty());
+  // What was refused has left nothing behind.
+  bodies::Pile<double, 3> expected = pile, seen = pile;
+  Made fresh = make();
+  expected.apply(fresh.contact, dt);
+  seen.apply(made.contact, dt);
+  EXPECT_EQ(expected.f, seen.f);
+
+  // No slave meets the same master: slaves shared, masters not; or those that are shared are excluded.
+  const auto lid = made.contact.add_organ({.name = "lid", .slaves = top, .masters = pile.plate.bottom});
+  const auto other = made.contact.add_organ({.name = "other", .slaves = bottom, .masters = lower});
+  EXPECT_NO_THROW(made.contact.add_pair(lid, other, second));
+  EXPECT_NO_THROW(
+      made.contact.add_pair(made.plate, skin, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom}));
+  const auto rest = made.contact.add_organ({.name = "rest", .slaves = bottom, .masters = {}});
+  EXPECT_NO_THROW(made.contact.add_pair(
+      made.plate, rest, {.roles = hmps::Roles::only_second_is_slave, .excluded = [](Index, Index) { return true; }}));
 }
 
 TEST(Door, RefusesBadInput) {
