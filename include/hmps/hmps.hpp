@@ -35,6 +35,7 @@
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
 #include "hmps/contact/raised_skin.hpp"
+#include "hmps/contact/state_checks.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/anchored.hpp"
 #include "hmps/core/error.hpp"

@@ -14,6 +14,7 @@
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
+#include "hmps/contact/state_checks.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/math.hpp"
@@ -70,6 +71,7 @@ class Candidates {
  public:
   using Point = Vector<S, D>;
   static constexpr std::uint8_t is_slave = 1, is_master = 2, is_prescribed = 4;
+  static constexpr Index none = std::numeric_limits<Index>::max();
 
   struct OrganRange {
     std::string name;
@@ -136,7 +138,6 @@ class Candidates {
 
  private:
   static constexpr std::size_t chunk = 512, shortest_nap = 8, longest_nap = 64;
-  static constexpr Index none = std::numeric_limits<Index>::max();
   // What a particle may do until the next check, beside going on as it went: a multiple of what it did since the last,
   // but this at least (motion in spacings; strain as a share by which lengths measured by A change; turn of a normal
   // in rad).
@@ -154,6 +155,7 @@ class Candidates {
   struct Watch {  // of particles
     std::size_t strayed;
     bool far, late;
+    Index flat = none;  // the first of those without an inverse of F
   };
   struct OuterRow {
     Index slave;  // of the numbered particles
@@ -186,6 +188,8 @@ class Candidates {
   template <class E>
   void measure_organs(const E& execute);
   [[noreturn]] void fail(const OrganRange& organ) const;
+  template <class Gradients>
+  void check_flat(const Gradients& F) const;
   [[nodiscard]] S used(const Side& side) const;
   template <class E>
   void build(const E& execute);

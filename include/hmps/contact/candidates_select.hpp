@@ -87,6 +87,7 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
   static_assert(chunk % width == 0);
   execute(watches_.size(), [&](std::size_t q) {
     bool late_here = false;
+    Index flat = none;
     const std::size_t end = std::min(particle_.size(), (q + 1) * chunk);
     for (std::size_t begin = q * chunk; begin < end; begin += width) {
       const auto deformation =
@@ -117,15 +118,30 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
         const S reach = radius_ * stretch.lane[l];
         reach_[i] = reach;
         // A master that is squashed flat is no wall.
-        const bool is_wall = std::isfinite(compression.lane[l]) && std::isfinite(reach);
+        const bool is_wall = is_finite(compression.lane[l]) && is_finite(reach);
+        if (!is_wall) flat = std::min(flat, static_cast<Index>(i));
         compression_[i] = is_wall ? compression.lane[l] : S(-1);
       }
     }
     watches_[q].late = late_here;
+    watches_[q].flat = flat;
   });
+  check_flat(F);
   bool any = false;
   for (const Watch& part : watches_) any = any || part.late;
   return any;
+}
+
+/// Throws where F has no inverse for another reason than that its particle is squashed flat: a `StateError` or, where
+/// nothing has been written to it, an `InputError`.
+template <class S, int D, Metaball Ball>
+template <class Gradients>
+void Candidates<S, D, Ball>::check_flat(const Gradients& F) const {
+  for (std::size_t q = 0; q < watches_.size(); ++q) {
+    if (watches_[q].flat == none) continue;
+    for (std::size_t i = watches_[q].flat; i < std::min(particle_.size(), (q + 1) * chunk); ++i)
+      require_gradient<D>(F[particle_[i]].template cast<double>(), particle_[i]);
+  }
 }
 
 /// How far the organs have moved since the outer list was built.
@@ -160,7 +176,7 @@ void Candidates<S, D, Ball>::measure_organs(const E& execute) {
   for (std::size_t o = 0; o < organs.size(); ++o) {
     OrganRange& organ = organs[o];
     // A NaN slips through the maxima but not through the sum.
-    if (!std::isfinite(organ.moved.sum())) fail(organ);
+    if (!all_finite(organ.moved)) fail(organ);
     // `motion` was measured beyond the mean of the check before, which serves as well as the present.
     const Point mean = organ.moved / static_cast<S>(organ.end - organ.begin);
     organ.motion = std::sqrt(organ.motion) + (mean - shift[o]).norm();
@@ -172,7 +188,7 @@ template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::fail(const OrganRange& organ) const {
   for (std::size_t m = organ.begin; m < organ.end; ++m)
     for (int c = 0; c < D; ++c)
-      if (const S place = place_[members_[m].number][c]; !std::isfinite(place))
+      if (const S place = place_[members_[m].number][c]; !is_finite(place))
         throw StateError(message("hmps: contact found component ", c, " of the position of particle ",
                                  members_[m].particle, " of '", organ.name, "' to be ", place,
                                  "; the run has become unstable: try a shorter step or a softer penalty"));

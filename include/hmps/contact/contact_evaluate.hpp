@@ -32,7 +32,8 @@ template <class X, class V, class G, class E>
 void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(gather_batch % width == 0);
-  execute((masters_.size() + gather_batch - 1) / gather_batch, [&](std::size_t q) {
+  suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, Lists::none);
+  execute(suspect_.size(), [&](std::size_t q) {
     const std::size_t end = std::min(masters_.size(), (q + 1) * gather_batch);
     for (std::size_t begin = q * gather_batch; begin < end; begin += width) {
       const auto B = inverse<Lanes<S>, D>(detail::gather_gradients<S, D>(
@@ -53,8 +54,10 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
             moving.B[c][r] = B(r, c).lane[l];
           }
         }
+        if (!detail::is_finite(size + place.sum() + velocity.sum()))
+          suspect_[q] = std::min(suspect_[q], static_cast<Index>(begin + l));
         // A master that is squashed flat is no wall: it is put out of reach.
-        if (!(size < std::numeric_limits<S>::max())) {
+        if (!detail::is_finite(size)) {
           for (int r = 0; r < D; ++r) {
             master.x[r] = S(1e6);
             for (int c = 0; c < D; ++c) master.A[c][r] = moving.B[c][r] = static_cast<S>(r == c);
@@ -63,6 +66,21 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
       }
     }
   });
+  check_suspects(x, v, F);
+}
+
+/// Throws for the first particle that has a position, a velocity or a deformation gradient to be refused.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class X, class V, class G>
+void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& v, const G& F) const {
+  for (std::size_t q = 0; q < suspect_.size(); ++q) {
+    if (suspect_[q] == Lists::none) continue;
+    for (std::size_t t = suspect_[q]; t < std::min(masters_.size(), (q + 1) * gather_batch); ++t) {
+      const Index i = lists_.awake[t].particle;
+      detail::require_motion<D>(x[i].template cast<double>(), v[i].template cast<double>(), i);
+      detail::require_gradient<D>(F[i].template cast<double>(), i);
+    }
+  }
 }
 
 /// One slave against one wall: \paper{28} to \paper{38}. True if it touches. `depth` is set where the wall has lost it.
@@ -163,7 +181,7 @@ void MetaballContact<S, D, Ball, Friction>::hand_out(const Take& take, const E& 
 
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report, double time) const {
-  throw StateError(message("hmps: ", std::isnan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
+  throw StateError(message("hmps: ", detail::is_nan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
                            lists_.organs[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
                            report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
                            " spacings) deep in it or has passed through",
@@ -171,15 +189,28 @@ void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report,
                            "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
 
+/// k in N/m4. Throws `InputError` where `S` cannot hold it, or what is computed from it.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+S MetaballContact<S, D, Ball, Friction>::penalty(double dt) const {
+  const double k = settings_.stiffness.at(settings_.density, dt);
+  const double largest = k * std::max({1., settings_.spacing, settings_.damping > 0 ? settings_.density : 0.});
+  require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
+              largest <= static_cast<double>(std::numeric_limits<S>::max()),
+          "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
+          8 * sizeof(S), "-bit numbers that contact computes with; check the step and the units, or use double");
+  return static_cast<S>(k);
+}
+
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class E>
 ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const V& v, const G& F, double dt,
                                                                const E& execute) {
-  require(dt > 0 && std::isfinite(dt), "hmps: the step of a contact evaluation is ", dt, " s; give a positive number");
+  require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
+          " s; give a positive number");
   require_size(v, x.size(), "velocities");
   require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
           " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
-  const S k = static_cast<S>(settings_.stiffness.at(settings_.density, dt));
+  const S k = penalty(dt);
   if (lists_.update(x, F, execute)) resize();
   ++call_;
   const std::size_t row_count = lists_.rows.size() - 1;

@@ -90,14 +90,14 @@ class MetaballContact {
   explicit MetaballContact(const ContactSettings& settings)
       : settings_(settings),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.skin * settings.spacing)) {
-    require(settings.density > 0 && std::isfinite(settings.density), "hmps: the density for contact is ",
+    require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
             settings.density, " kg/m3; give a positive number");
-    require(settings.friction >= 0 && std::isfinite(settings.friction), "hmps: the friction coefficient is ",
+    require(detail::is_finite(settings.friction) && settings.friction >= 0, "hmps: the friction coefficient is ",
             settings.friction, "; give zero or a positive number");
-    require(settings.damping >= 0 && std::isfinite(settings.damping), "hmps: the contact damping is ", settings.damping,
-            "; give zero or a positive fraction of critical");
-    require(settings.skin > 0 && std::isfinite(settings.skin), "hmps: the skin of the contact lists is ", settings.skin,
-            " spacings; give a positive number, such as 0.5");
+    require(detail::is_finite(settings.damping) && settings.damping >= 0, "hmps: the contact damping is ",
+            settings.damping, "; give zero or a positive fraction of critical");
+    require(detail::is_finite(settings.skin) && settings.skin > 0, "hmps: the skin of the contact lists is ",
+            settings.skin, " spacings; give a positive number, such as 0.5");
   }
 
   /// Declares an organ; the number returned names it in `add_pair`. Throws `InputError` if empty.
@@ -119,12 +119,15 @@ class MetaballContact {
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
   void set_friction(double mu) {
-    require(mu >= 0 && std::isfinite(mu), "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
+    require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
+            "; give zero or a positive number");
     settings_.friction = mu;
   }
 
   /// Adds the contact force densities at step `dt` (s) to `f`. Throws `InputError` on views of wrong
-  /// size and a bad step, `StateError` on positions that are not finite.
+  /// size, a bad step and a penalty that `S` cannot hold, and where the deformation gradient of a particle of an organ
+  /// is zero; `StateError` where a position or gradient of one, or the velocity of one that is near another organ, is
+  /// not finite. A gradient that is singular but not zero, or that `S` cannot invert, makes its particle no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
   ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
                               double dt, const VectorView<T, D>& f, const E& execute = {}) {
@@ -221,9 +224,12 @@ class MetaballContact {
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
+  [[nodiscard]] S penalty(double dt) const;
   void resize();
   template <class X, class V, class G, class E>
   void gather(const X& x, const V& v, const G& F, const E& execute);
+  template <class X, class V, class G>
+  void check_suspects(const X& x, const V& v, const G& F) const;
   template <class E>
   void weigh(const E& execute);
   template <class Take, class E>
@@ -239,7 +245,8 @@ class MetaballContact {
   std::vector<Quad> force_;
   std::vector<Index> batch_rows_, touching_;
   std::vector<Batch> batches_;
-  std::vector<S> load_;  // per awake particle: N
+  std::vector<Index> suspect_;  // per batch of `gather`, the first awake particle with a number that is not finite
+  std::vector<S> load_;         // per awake particle: N
   std::vector<Seat> seats_;
   std::uint32_t call_ = 1;
 };

@@ -10,6 +10,7 @@
 #include "hmps/contact/metaball.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -30,7 +31,7 @@ class NormalDensity {
  public:
   /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
-    require(spacing > 0 && std::isfinite(spacing), "hmps: the spacing of a metaball wall is ", spacing,
+    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
             " m; give the particles' positive distance in the reference configuration");
     find_deepest();
     const double top = in_spacings(deepest_);

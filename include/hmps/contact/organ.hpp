@@ -12,6 +12,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/grid.hpp"
@@ -50,7 +51,7 @@ template <class T, int D>
 [[nodiscard]] std::vector<Index> exclude_attached(const VectorView<T, D>& reference, std::span<const Index> slaves,
                                                   std::span<const Index> attachment, double distance) {
   using S = typename VectorView<T, D>::Scalar;
-  require(distance > 0 && std::isfinite(distance), "hmps: the distance of excluded slaves is ", distance,
+  require(detail::is_finite(distance) && distance > 0, "hmps: the distance of excluded slaves is ", distance,
           " m; give a positive length");
   for (const auto list : {slaves, attachment})
     for (const Index i : list)

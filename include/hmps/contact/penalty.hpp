@@ -6,6 +6,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -26,7 +27,7 @@ class PenaltyStiffness {
   }
   /// k in N/m4. Throws `InputError` unless positive and finite.
   [[nodiscard]] static PenaltyStiffness fixed(double k) {
-    require(k > 0 && std::isfinite(k), "hmps: the penalty coefficient k is ", k, " N/m4; give a positive number");
+    require(detail::is_finite(k) && k > 0, "hmps: the penalty coefficient k is ", k, " N/m4; give a positive number");
     return {k, false};
   }
 

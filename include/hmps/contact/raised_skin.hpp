@@ -10,6 +10,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
@@ -38,7 +39,7 @@ class RaisedSkin {
   template <class T, class Shape>
   RaisedSkin(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
-    require(spacing > 0 && std::isfinite(spacing), "hmps: the spacing of a raised skin is ", spacing,
+    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a raised skin is ", spacing,
             " m; give the particles' positive distance in the reference configuration");
     for (const Index i : skin_) {
       require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
