@@ -27,6 +27,7 @@
 #include "hmps/contact/candidates_sleep.hpp"
 #include "hmps/contact/contact.hpp"
 #include "hmps/contact/contact_evaluate.hpp"
+#include "hmps/contact/contact_forces.hpp"
 #include "hmps/contact/master_surface.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/metaball_contact.hpp"

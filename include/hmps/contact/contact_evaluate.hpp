@@ -4,6 +4,7 @@
 #include "hmps/contact/candidates_build.hpp"
 #include "hmps/contact/candidates_select.hpp"
 #include "hmps/contact/candidates_sleep.hpp"
+#include "hmps/contact/contact_forces.hpp"
 #include "hmps/contact/metaball_contact.hpp"
 #include "hmps/core/abi.hpp"
 
@@ -149,36 +150,6 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   return true;
 }
 
-/// N of `CorrectedFriction` for every awake particle.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-template <class E>
-void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
-  execute(load_.size(), [&](std::size_t t) {
-    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
-    S load = 0;
-    if (!(own.flags & Lists::is_prescribed)) {
-      for (std::size_t q = own.rows; q < next.rows; ++q)
-        load += static_cast<S>(state_[lists_.slave_rows[q]].penetration > S(0));
-      for (std::size_t e = own.entries; e < next.entries; ++e) load += entry_weight_[e];
-    }
-    load_[t] = load;
-  });
-}
-
-/// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-template <class Take, class E>
-void MetaballContact<S, D, Ball, Friction>::hand_out(const Take& take, const E& execute) const {
-  execute(load_.size(), [&](std::size_t t) {
-    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
-    // Rows that do not touch have no force: adding it costs less than to ask.
-    Quad force{};
-    for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.slave_rows[q]];
-    for (std::size_t e = own.entries; e < next.entries; ++e) force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
-    take(own, Point(detail::first<D, S>(force)));
-  });
-}
-
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report, double time) const {
   throw StateError(message("hmps: ", detail::is_nan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
@@ -189,40 +160,12 @@ void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report,
                            "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
 
-/// k in N/m4. Throws `InputError` where `S` cannot hold it, or what is computed from it.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-S MetaballContact<S, D, Ball, Friction>::penalty(double dt) const {
-  const double k = settings_.stiffness.at(settings_.density, dt);
-  const double largest = k * std::max({1., settings_.spacing, settings_.damping > 0 ? settings_.density : 0.});
-  require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
-              largest <= static_cast<double>(std::numeric_limits<S>::max()),
-          "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
-          8 * sizeof(S), "-bit numbers that contact computes with; check the step and the units, or use double");
-  return static_cast<S>(k);
-}
-
+/// Evaluates all rows, lists those that touch, and reports what walls have lost.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class E>
-ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const V& v, const G& F, double dt,
-                                                               const E& execute) {
-  require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
-          " s; give a positive number");
-  require_size(v, x.size(), "velocities");
-  require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
-          " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
-  const S k = penalty(dt);
-  if (lists_.update(x, F, execute)) resize();
-  ++call_;
-  const std::size_t row_count = lists_.rows.size() - 1;
-  ContactReport<S> report;
-  report.candidates = lists_.master_of.size();
-  report.rebuilds = lists_.rebuilds;
-  report.late = lists_.late;
-  touching_.clear();
-  if (row_count == 0) return report;
-
-  gather(x, v, F, execute);
-  const std::size_t count = (row_count + batch - 1) / batch;
+void MetaballContact<S, D, Ball, Friction>::find(const X& x, const V& v, const G& F, ContactReport<S>& report,
+                                                 const E& execute) {
+  const std::size_t row_count = lists_.rows.size() - 1, count = (row_count + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
     Batch result;
     for (std::size_t r = q * batch; r < std::min(row_count, (q + 1) * batch); ++r) {
@@ -249,40 +192,34 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
     report.lost = lists_.awake[row.slave].particle;
     report.lost_in = lists_.sides[row.side].masters;
   }
+}
+
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class X, class V, class G, class E>
+ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const V& v, const G& F, double dt,
+                                                               const E& execute) {
+  require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
+          " s; give a positive number");
+  require_size(v, x.size(), "velocities");
+  require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
+          " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
+  set_laws(dt);
+  if (lists_.update(x, F, execute)) resize();
+  ++call_;
+  const std::size_t row_count = lists_.rows.size() - 1;
+  ContactReport<S> report;
+  report.candidates = lists_.master_of.size();
+  report.rebuilds = lists_.rebuilds;
+  report.late = lists_.late;
+  touching_.clear();
+  if (row_count == 0) return report;
+
+  gather(x, v, F, execute);
+  find(x, v, F, report, execute);
   report.contacts = touching_.size();
   if (touching_.empty()) return report;
 
-  const S mu = static_cast<S>(settings_.friction), rate = static_cast<S>(settings_.density / dt);
-  const S damping = static_cast<S>(2 * settings_.damping) * std::sqrt(k * static_cast<S>(settings_.density));
-  const bool needs_load = (Friction::needs_load && mu > 0) || damping > 0;
-  if (needs_load) weigh(execute);
-  execute((touching_.size() + batch - 1) / batch, [&](std::size_t q) {
-    Batch result;
-    for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
-      const Index r = touching_[c];
-      const RowState& state = state_[r];
-      S load = 0;
-      if (needs_load) {
-        // The first of four numbers: a sum of single products would be taken several at a time, rounded in another way
-        // than the rest that is left over, and so depend on how many candidates without weight lie between.
-        Quad of_masters{};
-        for (std::size_t e = lists_.rows[r].begin; e < lists_.rows[r + 1].begin; ++e)
-          of_masters += Quad{load_[lists_.master_of[e]]} * weight_[e];
-        load = of_masters[0] + load_[lists_.rows[r].slave];
-      }
-      const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
-      const S normal = normal_force(k, state.penetration, std::min(damping, most), state.slip.dot(state.normal));
-      Point force = normal * state.normal;
-      if (mu > S(0)) {
-        const Point slip = tangential<S, D>(state.slip, state.normal);
-        force += friction_force<S, D>(slip, stick, mu * normal);
-        result.count += stick * slip.norm() <= mu * normal;
-      }
-      detail::spread<S>(force, force_[r]);
-    }
-    batches_[q] = result;
-  });
-  for (std::size_t q = 0; q < (touching_.size() + batch - 1) / batch; ++q) report.sticking += batches_[q].count;
+  report.sticking = push(dt, execute);
   for (const Index r : touching_)
     if (state_[r].penetration > report.penetration) {
       report.penetration = state_[r].penetration;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -32,7 +33,7 @@ namespace hmps::inline HMPS_ABI {
 struct ContactSettings {
   double spacing;                                             ///< l0 in m.
   double density;                                             ///< rho in kg/m3.
-  double friction = 0;                                        ///< mu_tan, \paper{23}.
+  double friction = 0;                                        ///< mu_tan, \paper{23}; see also `PairSettings`.
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
   /// Normal damping as a fraction of the critical 2 sqrt(k rho); beyond the paper, which has none. It
   /// is cut where it would reverse the closing velocity within a step.
@@ -92,8 +93,7 @@ class MetaballContact {
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.skin * settings.spacing)) {
     require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
             settings.density, " kg/m3; give a positive number");
-    require(detail::is_finite(settings.friction) && settings.friction >= 0, "hmps: the friction coefficient is ",
-            settings.friction, "; give zero or a positive number");
+    require_friction(settings.friction);
     require(detail::is_finite(settings.damping) && settings.damping >= 0, "hmps: the contact damping is ",
             settings.damping, "; give zero or a positive fraction of critical");
     require(detail::is_finite(settings.skin) && settings.skin > 0, "hmps: the skin of the contact lists is ",
@@ -108,7 +108,10 @@ class MetaballContact {
   /// meet the same master in the same role in another pair too (one body declared as two organs, say): the force
   /// would count twice. Organs of different pairs may share slaves or masters otherwise.
   std::size_t add_pair(std::size_t first, std::size_t second, const PairSettings& settings = {}) {
-    return lists_.add_pair(first, second, settings);
+    if (settings.friction) require_friction(*settings.friction);
+    const std::size_t pair = lists_.add_pair(first, second, settings);
+    own_.push_back({settings.friction, settings.stiffness});
+    return pair;
   }
 
   /// Builds all lists anew at the next call. Not needed after steps in time.
@@ -118,9 +121,9 @@ class MetaballContact {
   }
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
+  /// mu of the pairs that have none of their own (`PairSettings::friction`).
   void set_friction(double mu) {
-    require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
-            "; give zero or a positive number");
+    require_friction(mu);
     settings_.friction = mu;
   }
 
@@ -206,6 +209,13 @@ class MetaballContact {
     Index deepest = 0;  // row
     S depth = 0;
   };
+  struct PairSetting {
+    std::optional<double> friction;
+    std::optional<PenaltyStiffness> stiffness;
+  };
+  struct PairLaw {
+    S stiffness, damping, friction;
+  };
   static constexpr std::size_t batch = 8, gather_batch = 64;  // of rows: few, since quiet scenes have few
 
   template <class X, class V, class G, class T, class E>
@@ -222,20 +232,34 @@ class MetaballContact {
 
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
+  static void require_friction(double mu) {
+    require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
+            "; give zero or a positive number");
+  }
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
-  [[nodiscard]] S penalty(double dt) const;
   void resize();
   template <class X, class V, class G, class E>
   void gather(const X& x, const V& v, const G& F, const E& execute);
   template <class X, class V, class G>
   void check_suspects(const X& x, const V& v, const G& F) const;
+  template <class X, class V, class G, class E>
+  void find(const X& x, const V& v, const G& F, ContactReport<S>& report, const E& execute);
+  [[nodiscard]] const PenaltyStiffness& stiffness(std::size_t pair) const {
+    return own_[pair].stiffness ? *own_[pair].stiffness : settings_.stiffness;
+  }
+  [[nodiscard]] S penalty(const PenaltyStiffness& stiffness, double dt) const;
+  void set_laws(double dt);
   template <class E>
   void weigh(const E& execute);
+  template <class E>
+  std::size_t push(double dt, const E& execute);
   template <class Take, class E>
   void hand_out(const Take& take, const E& execute) const;
 
   ContactSettings settings_;
+  std::vector<PairSetting> own_;  // per pair: in place of what `settings_` says
+  std::vector<PairLaw> laws_;     // per pair: of the present call
   Lists lists_;
   std::vector<Master> masters_;  // per awake particle
   std::vector<Moving> moving_;

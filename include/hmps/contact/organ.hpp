@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
@@ -40,6 +42,8 @@ struct PairSettings {
   std::span<const Index> excluded_slaves{};
   /// `excluded(slave, master)`: these two never touch. Called when lists are built, from any thread.
   std::function<bool(Index, Index)> excluded{};
+  std::optional<double> friction{};             ///< mu_tan of this pair, if not that of `ContactSettings`.
+  std::optional<PenaltyStiffness> stiffness{};  ///< k of this pair, if not that of `ContactSettings`.
 };
 
 /// The slaves among `slaves` whose reference position lies within `distance` (m) of that of a particle

@@ -461,6 +461,49 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
       made.plate, rest, {.roles = hmps::Roles::only_second_is_slave, .excluded = [](Index, Index) { return true; }}));
 }
 
+TEST(Pairs, MayHaveFrictionAndStiffnessOfTheirOwn) {
+  // Two blocks on one plate, of which the plate is pulled away.
+  bodies::Scene<double, 3> scene;
+  const auto plate = scene.add({14, 6, 2}, {0, 0, 0}, 1e-3);
+  const auto left = scene.add({4, 4, 2}, {1.1e-3, 1.2e-3, 1.9e-3}, 1e-3);
+  const auto right = scene.add({4, 4, 2}, {8.1e-3, 1.2e-3, 1.9e-3}, 1e-3);
+  for (const Index i : plate.all) scene.v[i][1] = 1;
+  const auto forces = [&](const hmps::ContactSettings& all, const hmps::PairSettings& of_left,
+                          const hmps::PairSettings& of_right) {
+    MetaballContact<double, 3> contact(all);
+    const auto a = contact.add_organ({.name = "plate", .slaves = plate.top, .masters = plate.upper, .prescribed = {}});
+    const auto pair = [&](const auto& block, const hmps::PairSettings& own) {
+      contact.add_pair(
+          a, contact.add_organ({.name = "block", .slaves = block.bottom, .masters = block.lower, .prescribed = {}}),
+          own);
+    };
+    pair(left, of_left);
+    pair(right, of_right);
+    scene.apply(contact, dt);
+    std::vector<std::vector<hmps::Vector<double, 3>>> of_blocks(2);
+    for (const Index i : left.all) of_blocks[0].push_back(scene.f[i]);
+    for (const Index i : right.all) of_blocks[1].push_back(scene.f[i]);
+    return of_blocks;
+  };
+  auto smooth = with_friction, rough = with_friction;
+  smooth.friction = 0;
+  const auto none = forces(smooth, {}, {}), full = forces(rough, {}, {});
+  EXPECT_NE(none[0], full[0]);
+  for (const auto& mixed : {forces(smooth, {}, {.friction = 0.3}), forces(rough, {.friction = 0}, {})}) {
+    EXPECT_EQ(mixed[0], none[0]);
+    EXPECT_EQ(mixed[1], full[1]);
+  }
+  auto soft = with_friction;
+  soft.stiffness = hmps::PenaltyStiffness::ratio(0.1);
+  const auto softer = forces(soft, {}, {});
+  EXPECT_NE(softer[0], full[0]);
+  const auto mixed = forces(rough, {.stiffness = hmps::PenaltyStiffness::ratio(0.1)}, {});
+  EXPECT_EQ(mixed[0], softer[0]);
+  EXPECT_EQ(mixed[1], full[1]);
+  EXPECT_THROW(forces(rough, {.friction = -0.1}, {}), hmps::InputError);
+  EXPECT_THROW(forces(rough, {.friction = std::numeric_limits<double>::quiet_NaN()}, {}), hmps::InputError);
+}
+
 TEST(Door, RefusesBadInput) {
   using Contact = MetaballContact<double, 3>;
   const auto refuse = [](hmps::ContactSettings settings) { EXPECT_THROW(Contact{settings}, hmps::InputError); };

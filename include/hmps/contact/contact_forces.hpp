@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hmps/contact/metaball_contact.hpp"
+#include "hmps/core/abi.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// k in N/m4. Throws `InputError` where `S` cannot hold it, or what is computed from it.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+S MetaballContact<S, D, Ball, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
+  const double k = stiffness.at(settings_.density, dt);
+  const double largest = k * std::max({1., settings_.spacing, settings_.damping > 0 ? settings_.density : 0.});
+  require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
+              largest <= static_cast<double>(std::numeric_limits<S>::max()),
+          "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
+          8 * sizeof(S), "-bit numbers that contact computes with; check the step and the units, or use double");
+  return static_cast<S>(k);
+}
+
+/// What acts between the organs of each pair at step `dt`.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+void MetaballContact<S, D, Ball, Friction>::set_laws(double dt) {
+  laws_.resize(own_.size());
+  for (std::size_t p = 0; p < own_.size(); ++p) {
+    const S k = penalty(stiffness(p), dt);
+    laws_[p] = {k, static_cast<S>(2 * settings_.damping) * std::sqrt(k * static_cast<S>(settings_.density)),
+                static_cast<S>(own_[p].friction.value_or(settings_.friction))};
+  }
+}
+
+/// N of `CorrectedFriction` for every awake particle.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class E>
+void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
+  execute(load_.size(), [&](std::size_t t) {
+    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
+    S load = 0;
+    if (!(own.flags & Lists::is_prescribed)) {
+      for (std::size_t q = own.rows; q < next.rows; ++q)
+        load += static_cast<S>(state_[lists_.slave_rows[q]].penetration > S(0));
+      for (std::size_t e = own.entries; e < next.entries; ++e) load += entry_weight_[e];
+    }
+    load_[t] = load;
+  });
+}
+
+/// The forces \paper{39, 40} of the rows that touch; returns how many stick.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class E>
+std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& execute) {
+  const S rate = static_cast<S>(settings_.density / dt);
+  const bool needs_load = std::any_of(laws_.begin(), laws_.end(), [](const PairLaw& law) {
+    return (Friction::needs_load && law.friction > S(0)) || law.damping > S(0);
+  });
+  if (needs_load) weigh(execute);
+  const std::size_t count = (touching_.size() + batch - 1) / batch;
+  execute(count, [&](std::size_t q) {
+    Batch result;
+    for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
+      const Index r = touching_[c];
+      const RowState& state = state_[r];
+      const PairLaw& law = laws_[lists_.sides[lists_.rows[r].side].pair];
+      S load = 0;
+      if (needs_load) {
+        // The first of four numbers: a sum of single products would be taken several at a time, rounded in another way
+        // than the rest that is left over, and so depend on how many candidates without weight lie between.
+        Quad of_masters{};
+        for (std::size_t e = lists_.rows[r].begin; e < lists_.rows[r + 1].begin; ++e)
+          of_masters += Quad{load_[lists_.master_of[e]]} * weight_[e];
+        load = of_masters[0] + load_[lists_.rows[r].slave];
+      }
+      const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
+      const S normal =
+          normal_force(law.stiffness, state.penetration, std::min(law.damping, most), state.slip.dot(state.normal));
+      Point force = normal * state.normal;
+      if (law.friction > S(0)) {
+        const Point slip = tangential<S, D>(state.slip, state.normal);
+        force += friction_force<S, D>(slip, stick, law.friction * normal);
+        result.count += stick * slip.norm() <= law.friction * normal;
+      }
+      detail::spread<S>(force, force_[r]);
+    }
+    batches_[q] = result;
+  });
+  std::size_t sticking = 0;
+  for (std::size_t q = 0; q < count; ++q) sticking += batches_[q].count;
+  return sticking;
+}
+
+/// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class Take, class E>
+void MetaballContact<S, D, Ball, Friction>::hand_out(const Take& take, const E& execute) const {
+  execute(load_.size(), [&](std::size_t t) {
+    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
+    // Rows that do not touch have no force: adding it costs less than to ask.
+    Quad force{};
+    for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.slave_rows[q]];
+    for (std::size_t e = own.entries; e < next.entries; ++e) force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
+    take(own, Point(detail::first<D, S>(force)));
+  });
+}
+
+}  // namespace hmps::inline HMPS_ABI
