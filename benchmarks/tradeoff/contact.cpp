@@ -84,7 +84,7 @@ Slide slide(const Settings& settings, double angle, Meter& meter) {
        .friction = friction,
        .stiffness = hmps::PenaltyStiffness::fixed(ratio * density / (dt * dt)),
        .damping = settings.number("damping"),
-       .skin = settings.number("skin")});
+       .margin = settings.number("margin")});
   const auto below = contact.add_organ({"wall", skin, wall, [](hmps::Index) { return true; }});
   const auto above = contact.add_organ({"block", bottom, lower});
   const auto pair = contact.add_pair(below, above);
@@ -182,7 +182,7 @@ Scene contact(const Scale& scale) {
           "along the slide, then at 30 degrees to it, and the worse of the two counts. Friction is the mean tangential "
           "over the mean normal force; the ripple is the root mean square of the normal force about the load. The "
           "step is a share of what is stable without contact, k~ that of the standard cadence; at a cadence of m the "
-          "contact acts on each m-th step only, with the impulse of all. The skin is how far particles move before "
+          "contact acts on each m-th step only, with the impulse of all. The margin is how far particles move before "
           "the lists of candidates are rebuilt.",
       .quantities = {{.name = "friction"},
                      {.name = "the ripple of the normal force", .scale = 1},
@@ -197,7 +197,7 @@ Scene contact(const Scale& scale) {
            {.name = "k~", .values = ratios, .standard = 0.05},
            {.name = "cadence", .values = {1., 2., 4.}, .standard = 1.},
            {.name = "damping", .values = {0., 0.1, 0.5}, .standard = 0., .unit = "of critical"},
-           {.name = "skin", .values = {0.25, 0.5, 1.}, .standard = 0.5, .unit = "l0"},
+           {.name = "margin", .values = {0.25, 0.5, 1.}, .standard = 0.5, .unit = "l0"},
            {.name = "step", .values = {0.3, 0.6, 0.9}, .standard = 0.6},
            {.name = "scalar", .values = {"double", "mixed", "float"}, .standard = "double"},
            {.name = "E_hat", .values = {0.25, 0.5, 1.}, .standard = 0.5, .unit = "E"},

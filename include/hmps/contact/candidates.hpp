@@ -53,7 +53,7 @@ template <class T, int D>
   return sqrt(mean + sqrt(contract<T, D>(C, C) * T((D - 1.) / D)));
 }
 
-/// Which slaves may meet which masters. The outer list holds the pairs within reach plus `skin`, in rows
+/// Which slaves may meet which masters. The outer list holds the pairs within reach plus `margin`, in rows
 /// of one slave each; a grid search makes it, whenever organs have moved or a reach has grown by that
 /// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how far those of a row
 /// may be off that before its slave could touch. From then on every call looks how far each particle truly is off, and
@@ -117,9 +117,9 @@ class Candidates {
   std::vector<Index> slave_rows;  // the rows of each slave, ascending
   std::size_t rebuilds = 0, checks = 0, late = 0, seats = 0;
 
-  /// `spacing` and `skin` in m.
-  Candidates(S spacing, S skin)
-      : normal_density(spacing), radius_(static_cast<S>(Ball::radius) * spacing), skin_(skin) {}
+  /// `spacing` and `margin` in m.
+  Candidates(S spacing, S margin)
+      : normal_density(spacing), radius_(static_cast<S>(Ball::radius) * spacing), margin_(margin) {}
 
   std::size_t add_organ(const Organ& organ);
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
@@ -127,6 +127,13 @@ class Candidates {
 
   /// Number of particles that the views must hold at least.
   [[nodiscard]] std::size_t particles() const { return particles_; }
+
+  /// Calls `visit(i)` for each particle of organ `o` that forces move.
+  template <class Visit>
+  void for_each_movable(std::size_t o, Visit&& visit) const {
+    for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
+      if (!(members_[m].flags & is_prescribed)) visit(members_[m].particle);
+  }
 
   /// Keeps the lists valid for this call; true if the inner one has changed.
   template <class X, class Gradients, class E>
@@ -206,7 +213,7 @@ class Candidates {
   void select();
   void transpose();
 
-  S radius_, skin_;
+  S radius_, margin_;
   std::vector<Member> members_;  // organ after organ, sorted by particle
   std::vector<Part> parts_;
   // Of the numbered particles.

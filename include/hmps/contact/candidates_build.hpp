@@ -187,13 +187,13 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
     low_a = low_a.cwiseMin(place_[i]);
     high_a = high_a.cwiseMax(place_[i]);
     const Point out = (low - place_[i]).cwiseMax(place_[i] - high);
-    if (out.maxCoeff() > widest + skin_) continue;
+    if (out.maxCoeff() > widest + margin_) continue;
     slaves.push_back(i);
     seat.push_back(static_cast<Index>(side.first_seat + m - a.begin));
   }
   // Organs far apart bear as much motion as lies between them; all slaves excluded: any.
   const S apart = low_a[0] <= high_a[0] ? (low - high_a).cwiseMax(low_a - high).maxCoeff() - widest : far;
-  side.limit = S(0.999) * std::max(skin_, apart);
+  side.limit = S(0.999) * std::max(margin_, apart);
   if (slaves.empty()) return;
   Point low_s = Point::Constant(far), high_s = -low_s;
   for (const Index i : slaves) {
@@ -203,16 +203,16 @@ void Candidates<S, D, Ball>::build_side(std::uint32_t s, const E& execute) {
   for (std::size_t m = b.begin; m < b.end; ++m) {
     const Index j = members_[m].number;
     const Point out = (low_s - place_[j]).cwiseMax(place_[j] - high_s);
-    if (is_wall(members_[m]) && out.maxCoeff() <= reach_[j] + skin_) masters.push_back(j);
+    if (is_wall(members_[m]) && out.maxCoeff() <= reach_[j] + margin_) masters.push_back(j);
   }
   Grid<S, D> grid;
-  grid.build(slaves.size(), radius_ + skin_, [&](std::size_t k) { return place_[slaves[k]]; });
+  grid.build(slaves.size(), radius_ + margin_, [&](std::size_t k) { return place_[slaves[k]]; });
   constexpr std::size_t batch = 256;
   std::vector<std::vector<Near>> found((masters.size() + batch - 1) / batch);
   execute(found.size(), [&](std::size_t q) {
     for (std::size_t l = q * batch; l < std::min(masters.size(), (q + 1) * batch); ++l) {
       const Index j = masters[l];
-      grid.visit(place_[j], reach_[j] + skin_, [&](Index k, S) {
+      grid.visit(place_[j], reach_[j] + margin_, [&](Index k, S) {
         if (!pair.excluded || !pair.excluded(particle_[slaves[k]], particle_[j])) found[q].push_back({k, j});
       });
     }

@@ -34,7 +34,7 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   measure_organs(execute);
   ++checks;
   for (const Side& side : sides)
-    if (!(used(side) + S(0.4) * skin_ < side.limit)) built_ = false;
+    if (!(used(side) + S(0.4) * margin_ < side.limit)) built_ = false;
   if (!built_) build(execute);
   // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();

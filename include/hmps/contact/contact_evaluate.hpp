@@ -84,6 +84,26 @@ void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& 
   }
 }
 
+/// Whether the wall has lost a slave that touches it. Where the sum falls less than it should across a wall it no
+/// longer tells which way is out. In a wall of one layer that happens nearer than 0.6 spacings; further off it also
+/// falls little. What is fast may jump over that place, but then the wall has come to push to the other side since the
+/// slave was that far off.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+bool MetaballContact<S, D, Ball, Friction>::lost(const Surface& surface, Index seat_of, const Centres& centres,
+                                                 const RowState& state) {
+  const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
+  const bool inside = centres.value < S(0.6) * l0;
+  const bool deep =
+      centres.deep || (inside && surface.gradient(S(1) / (radius * radius)).norm() * surface.stretch(state.normal) <
+                                     lists_.normal_density.least_slope());
+  Seat& seat = seats_[seat_of];
+  const Vector<float, D> outward = surface.unturned(state.normal).template cast<float>().normalized();
+  const bool known = seat.call + 1 == call_, turned = known && seat.outward.dot(outward) < -0.5F;
+  if (!known || !inside) seat.outward = outward;
+  seat.call = call_;
+  return deep || turned;
+}
+
 /// One slave against one wall: \paper{28} to \paper{38}. True if it touches. `depth` is set where the wall has lost it.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G>
@@ -100,14 +120,14 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   Quad place;
   detail::spread<S>(x[slave].template cast<S>(), place);
 
-  MasterSurface<S, D, Ball> surface;
+  Surface surface;
   for (std::size_t k = begin; k < end; ++k) {
     const Master& master = masters_[master_of[k]];
     Quad towards = master.x;
     towards -= place;
     weight[k] = surface.reach(master.A, towards, over_radius_squared);
   }
-  const auto centres = lists_.normal_density.inverse(surface.density());
+  const Centres centres = lists_.normal_density.inverse(surface.density());
   bool touches = centres.reached;
   if (touches && !surface.normal(radius, state.normal)) {
     depth = l0 - centres.value;
@@ -131,19 +151,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
     for (std::size_t k = begin; touched && k < end; ++k) entry_weight[entry[k]] = 0;
     return false;
   }
-  // Where the sum falls less than it should across a wall it no longer tells which way is out. In a wall of one layer
-  // that happens nearer than 0.6 spacings; further off it also falls little. What is fast may jump over that place, but
-  // then the wall has come to push to the other side since the slave was that far off.
-  const bool inside = centres.value < S(0.6) * l0;
-  const bool deep =
-      centres.deep || (inside && surface.gradient(over_radius_squared).norm() * surface.stretch(state.normal) <
-                                     lists_.normal_density.least_slope());
-  Seat& seat = seats_[row.seat];
-  const Vector<float, D> outward = surface.unturned(state.normal).template cast<float>().normalized();
-  const bool known = seat.call + 1 == call_;
-  if (deep || (known && seat.outward.dot(outward) < -0.5F)) depth = state.penetration;
-  if (!known || !inside) seat.outward = outward;
-  seat.call = call_;
+  if (lost(surface, row.seat, centres, state)) depth = state.penetration;
   state.slip = surface.relative_velocity(v[slave].template cast<S>());
   const S over_density = S(1) / surface.density();
   for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] *= over_density;
@@ -200,6 +208,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
                                                                const E& execute) {
   require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
           " s; give a positive number");
+  require_size(x, x.size(), "positions");
   require_size(v, x.size(), "velocities");
   require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
           " but the views hold ", x.size(), " particles; indices count from 0 over all particles");

@@ -3,6 +3,8 @@
 
 #include "hmps/contact/metaball_contact.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/step.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -16,6 +18,29 @@ S MetaballContact<S, D, Ball, Friction>::penalty(const PenaltyStiffness& stiffne
           "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
           8 * sizeof(S), "-bit numbers that contact computes with; check the step and the units, or use double");
   return static_cast<S>(k);
+}
+
+/// Throws `InputError` if a particle that the contact may move is too light for the penalty of its pair at step `dt`.
+/// `size`: number of particles in the views.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <PerParticle Rho>
+void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, std::size_t size, double dt) const {
+  detail::require_step(dt);
+  for (std::size_t p = 0; p < own_.size(); ++p) {
+    const double least = stiffness(p).at(settings_.density, dt) * dt * dt;  // of densities, at k~ = 1
+    if constexpr (std::is_arithmetic_v<Rho>)
+      if (static_cast<double>(rho) > least) continue;
+    for (const std::size_t o : {lists_.pairs[p].first, lists_.pairs[p].second})
+      lists_.for_each_movable(o, [&](Index i) {
+        if (i >= size) return;
+        const double own = static_cast<double>(at_particle(rho, i));
+        require(own > least, "hmps: particle ", i, " of '", lists_.organs[o].name, "' has the density ", own,
+                " kg/m3, which makes its penalty ratio k~ = k dt^2 / rho = ", least / own,
+                "; it must be below 1, but the contact was set for ", settings_.density,
+                " kg/m3: set `ContactSettings::density` to that of the lightest body, or give its pair a softer "
+                "`PairSettings::stiffness`");
+      });
+  }
 }
 
 /// What acts between the organs of each pair at step `dt`.

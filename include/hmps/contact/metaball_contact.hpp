@@ -38,7 +38,7 @@ struct ContactSettings {
   /// Normal damping as a fraction of the critical 2 sqrt(k rho); beyond the paper, which has none. It
   /// is cut where it would reverse the closing velocity within a step.
   double damping = 0;
-  double skin = 0.5;  ///< In spacings: how much motion the candidate lists bear before they are rebuilt.
+  double margin = 0.5;  ///< In spacings: how much motion the candidate lists bear before they are rebuilt.
 };
 
 /// What one evaluation of the contact met.
@@ -90,14 +90,14 @@ class MetaballContact {
   /// Throws `InputError` on settings that are not finite or out of range.
   explicit MetaballContact(const ContactSettings& settings)
       : settings_(settings),
-        lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.skin * settings.spacing)) {
+        lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
     require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
             settings.density, " kg/m3; give a positive number");
     require_friction(settings.friction);
     require(detail::is_finite(settings.damping) && settings.damping >= 0, "hmps: the contact damping is ",
             settings.damping, "; give zero or a positive fraction of critical");
-    require(detail::is_finite(settings.skin) && settings.skin > 0, "hmps: the skin of the contact lists is ",
-            settings.skin, " spacings; give a positive number, such as 0.5");
+    require(detail::is_finite(settings.margin) && settings.margin > 0, "hmps: the margin of the contact lists is ",
+            settings.margin, " spacings; give a positive number, such as 0.5");
   }
 
   /// Declares an organ; the number returned names it in `add_pair`. Throws `InputError` if empty.
@@ -148,13 +148,15 @@ class MetaballContact {
   /// Adds to the velocities `v` (m/s) of what touches what contact gives in the step `dt` (s), \paper{3}: the forces
   /// of the call above and `kick`, without an array of forces, and at no cost for particles that are far from any
   /// other organ. Particles that are `prescribed` keep their velocity. Density `rho` in kg/m3, a number or a
-  /// `ScalarView`. Throws as those two do.
+  /// `ScalarView`. Throws as those two do, and `InputError` where a particle that may touch is so light that its own
+  /// k~ = k dt^2 / rho reaches 1.
   template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
   ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
                         double dt, const E& execute = {}) {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
     require_size(F, x.size(), "deformation gradients");
     require_positive(rho, x.size(), "density", "kg/m3");
+    require_heavy(rho, x.size(), dt);
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts == 0) return report;
     hand_out(
@@ -190,6 +192,8 @@ class MetaballContact {
 
  private:
   using Quad = detail::Quad<S>;
+  using Surface = MasterSurface<S, D, Ball>;
+  using Centres = typename NormalDensity<S, D, Ball>::Distance;
   struct alignas(64) Master {  // a cache line of float
     Quad x, A[D];              // A = F^-T F^-1
   };
@@ -221,6 +225,8 @@ class MetaballContact {
   template <class X, class V, class G, class T, class E>
   ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute) {
     require_size(f, x.size(), "contact forces");
+    require_apart(f, "contact forces", x, "positions");
+    require_apart(f, "contact forces", v, "velocities");
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts > 0)
       hand_out([&](const typename Lists::Awake& own, const Point& force) { f.add(own.particle, force); }, execute);
@@ -236,6 +242,7 @@ class MetaballContact {
     require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
             "; give zero or a positive number");
   }
+  [[nodiscard]] bool lost(const Surface& surface, Index seat_of, const Centres& centres, const RowState& state);
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
   void resize();
@@ -249,6 +256,8 @@ class MetaballContact {
     return own_[pair].stiffness ? *own_[pair].stiffness : settings_.stiffness;
   }
   [[nodiscard]] S penalty(const PenaltyStiffness& stiffness, double dt) const;
+  template <PerParticle Rho>
+  void require_heavy(const Rho& rho, std::size_t size, double dt) const;
   void set_laws(double dt);
   template <class E>
   void weigh(const E& execute);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -51,6 +52,7 @@ class RaisedSkin {
               "it is not of the outermost layer, or the shape does not tell which way is out there; leave it out, or "
               "give about the signed distance in m");
       offset_.push_back(offset->template cast<S>());
+      particles_ = std::max(particles_, std::size_t{i} + 1);
     }
   }
 
@@ -75,10 +77,14 @@ class RaisedSkin {
     return offset;
   }
 
-  /// Writes to `places` what contact shall see: the positions `x`, and x + F d for the skin, in m.
+  /// Writes to `places` what contact shall see: the positions `x`, and x + F d for the skin, in m. Throws `InputError`
+  /// unless the views hold the same particles, and all of the skin.
   template <class X, class M, class P, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const MatrixView<M, D>& F, const VectorView<P, D>& places,
                   const E& execute = {}) const {
+    require_size(x, x.size(), "positions");
+    require(x.size() >= particles_, "hmps: particle ", particles_ - 1, " is of the raised skin but the views hold ",
+            x.size(), " particles; give views of all particles, as the reference positions were");
     require_size(F, x.size(), "deformation gradients");
     require_size(places, x.size(), "places for contact");
     execute(x.size(), [&](std::size_t i) {
@@ -102,6 +108,7 @@ class RaisedSkin {
 
   std::vector<Index> skin_;
   std::vector<Vector<S, D>> offset_;
+  std::size_t particles_ = 0;  // that the views must hold at least
 };
 
 }  // namespace hmps::inline HMPS_ABI

@@ -375,6 +375,43 @@ TEST(Kick, IsWhatTheForcesGive) {
                hmps::InputError);
 }
 
+/// The message of the `InputError` that `call` throws; empty if it throws none.
+template <class Call>
+std::string refusal(Call&& call) {
+  try {
+    call();
+  } catch (const hmps::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Kick, RefusesWhatIsTooLightForThePenalty) {
+  bodies::Pile<double, 3> pile(0.9);
+  const auto x = hmps::vectors(pile.x), v = hmps::vectors(pile.v);
+  const auto F = hmps::matrices(pile.F);
+  std::vector<double> rho(pile.x.size(), 1000);
+  const auto kick = [&](const auto& density, const hmps::PairSettings& pair, bool fixed_plate) {
+    MetaballContact<double, 3> contact(with_friction);  // k~ = 0.3 at 1000 kg/m3
+    pile.declare(contact, pair, fixed_plate);
+    return refusal([&] { contact.kick(x, v, F, density, dt); });
+  };
+  EXPECT_TRUE(kick(hmps::scalars(rho), {}, false).empty());
+  const Index light = pile.block.bottom[7];
+  rho[light] = 100;
+  const std::string text = kick(hmps::scalars(rho), {}, false);
+  EXPECT_NE(text.find("particle " + std::to_string(light) + " of 'block'"), std::string::npos) << text;
+  EXPECT_NE(text.find("= 3;"), std::string::npos) << text;
+  EXPECT_TRUE(kick(hmps::scalars(rho), {.stiffness = hmps::PenaltyStiffness::ratio(0.09)}, false).empty());
+  EXPECT_FALSE(kick(299, {}, false).empty());
+  EXPECT_TRUE(kick(301, {}, false).empty());
+  // What is prescribed may have any density.
+  rho.assign(rho.size(), 1000);
+  for (const Index i : pile.plate.all) rho[i] = 1;
+  EXPECT_FALSE(kick(hmps::scalars(rho), {}, false).empty());
+  EXPECT_TRUE(kick(hmps::scalars(rho), {}, true).empty());
+}
+
 TEST(SharedParticles, AParticleInTwoOrgansGathersBothContacts) {
   // The left and the right half of the block are organs of their own, each with an organ of the plate's top.
   bodies::Pile<double, 3> pile(0.9);
@@ -400,17 +437,6 @@ TEST(SharedParticles, AParticleInTwoOrgansGathersBothContacts) {
   // Friction aside (nothing slides), forces add up.
   for (std::size_t i = 0; i < both.size(); ++i)
     EXPECT_LE((one[i] + other[i] - both[i]).norm(), 1e-9 * pile.magnitude());
-}
-
-/// The message of the `InputError` that `call` throws; empty if it throws none.
-template <class Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
@@ -514,7 +540,7 @@ TEST(Door, RefusesBadInput) {
   refuse({.spacing = 1e-3, .density = 1000, .friction = -0.1});
   refuse({.spacing = 1e-3, .density = 1000, .friction = nan});
   refuse({.spacing = 1e-3, .density = 1000, .damping = -1});
-  refuse({.spacing = 1e-3, .density = 1000, .skin = 0});
+  refuse({.spacing = 1e-3, .density = 1000, .margin = 0});
 
   bodies::Pile<double, 3> pile(0.9);
   Contact contact(with_friction);

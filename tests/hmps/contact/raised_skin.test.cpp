@@ -92,6 +92,22 @@ TYPED_TEST(RaisedSkinTest, FollowsTheBody) {
     EXPECT_LT((after[i] - A * before[i]).norm(), S(20) * body.radius * std::numeric_limits<S>::epsilon());
 }
 
+TEST(RaisedSkin, WritesNowhereElseThanInTheViews) {
+  const Lattice<double, 3> body;
+  const hmps::RaisedSkin<double, 3> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
+  std::vector<hmps::Matrix<double, 3>> F(body.x.size(), hmps::Matrix<double, 3>::Identity());
+  auto places = body.x;
+  const auto x = hmps::vectors(body.x);
+  const std::size_t few = body.skin.back();  // all but the last of the skin, and what follows it
+  EXPECT_THROW(raised(x.part(0, few), hmps::matrices(F).part(0, few), hmps::vectors(places).part(0, few)),
+               hmps::InputError);
+  EXPECT_EQ(places, body.x) << "something was written before the error";
+  EXPECT_THROW(raised(x, hmps::matrices(F).part(0, few), hmps::vectors(places)), hmps::InputError);
+  EXPECT_THROW(raised(x, hmps::matrices(F), hmps::vectors(places).part(0, few)), hmps::InputError);
+  EXPECT_NO_THROW(
+      raised(x.part(0, few + 1), hmps::matrices(F).part(0, few + 1), hmps::vectors(places).part(0, few + 1)));
+}
+
 TEST(RaisedSkin, SaysWhatIsWrong) {
   const Lattice<double, 3> body;
   const auto make = [&](std::vector<Index> skin, auto shape, double spacing) {
