@@ -128,6 +128,17 @@ class Candidates {
   /// Number of particles that the views must hold at least.
   [[nodiscard]] std::size_t particles() const { return particles_; }
 
+  /// The position of particle `i` of the view `x`, in m from the origin of the lists. Where `S` is narrower than the
+  /// scalars of `x` that is rounded after the subtraction, so that it is as sharp far from zero as near it.
+  template <class X>
+  [[nodiscard]] HMPS_INLINE Point place_of(const X& x, std::size_t i) const {
+    using Wide = typename X::Scalar;
+    if constexpr (sizeof(Wide) > sizeof(S))
+      return (x[i] - origin_.template cast<Wide>()).template cast<S>();
+    else
+      return x[i].template cast<S>();
+  }
+
   /// Calls `visit(i)` for each particle of organ `o` that forces move.
   template <class Visit>
   void for_each_movable(std::size_t o, Visit&& visit) const {
@@ -195,6 +206,8 @@ class Candidates {
   template <class E>
   void measure_organs(const E& execute);
   [[noreturn]] void fail(const OrganRange& organ) const;
+  template <class X>
+  void choose_origin(const X& x);
   template <class Gradients>
   void check_flat(const Gradients& F) const;
   [[nodiscard]] S used(const Side& side) const;
@@ -214,7 +227,8 @@ class Candidates {
   void transpose();
 
   S radius_, margin_;
-  std::vector<Member> members_;  // organ after organ, sorted by particle
+  Vector<double, D> origin_ = Vector<double, D>::Zero();  // in m: from where places are measured
+  std::vector<Member> members_;                           // organ after organ, sorted by particle
   std::vector<Part> parts_;
   // Of the numbered particles.
   std::vector<Index> particle_;

@@ -35,7 +35,10 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   ++checks;
   for (const Side& side : sides)
     if (!(used(side) + S(0.4) * margin_ < side.limit)) built_ = false;
-  if (!built_) build(execute);
+  if (!built_) {
+    choose_origin(x);
+    build(execute);
+  }
   // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();
   for (const Side& side : sides) most = std::min(most, S(0.4) * (side.limit - used(side)));
@@ -97,7 +100,7 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
       const Lanes<S> stretch = stretch_bound<Lanes<S>, D>(deformation), compression = stretch_bound<Lanes<S>, D>(B);
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
         const std::size_t i = begin + l;
-        const Point place = x[particle_[i]].template cast<S>();
+        const Point place = place_of(x, particle_[i]);
         bound_[i] = std::numeric_limits<S>::max();
         if (built_)
           bound_[i] = least_motion * normal_density.spacing() + S(2) * longer() * (place - expected(i)).norm();
@@ -130,6 +133,27 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
   bool any = false;
   for (const Watch& part : watches_) any = any || part.late;
   return any;
+}
+
+/// Moves the origin to the middle of the particles where they lie so far from it that `S` resolves their distances only
+/// to 1e-4 spacings or worse, which for float is beyond about a thousand spacings. Only before lists are built, and
+/// never where `S` is as wide as the scalars of `x`.
+template <class S, int D, Metaball Ball>
+template <class X>
+void Candidates<S, D, Ball>::choose_origin(const X& x) {
+  if constexpr (sizeof(typename X::Scalar) > sizeof(S)) {
+    const double far = static_cast<double>(normal_density.spacing()) * 1.25e-4 /
+                       static_cast<double>(std::numeric_limits<S>::epsilon());
+    Point low = Point::Constant(std::numeric_limits<S>::max()), high = -low;
+    for (const Point& place : place_) {
+      low = low.cwiseMin(place);
+      high = high.cwiseMax(place);
+    }
+    const Vector<double, D> middle = 0.5 * (low.template cast<double>() + high.template cast<double>());
+    if (place_.empty() || middle.cwiseAbs().maxCoeff() <= far) return;
+    origin_ += middle;
+    for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = place_of(x, particle_[i]);
+  }
 }
 
 /// Throws where F has no inverse for another reason than that its particle is squashed flat: a `StateError` or, where

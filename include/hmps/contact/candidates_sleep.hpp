@@ -97,9 +97,7 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
 template <class S, int D, Metaball Ball>
 template <class X, class E>
 bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
-  const auto moved_squared = [&](std::size_t i) {
-    return (x[particle_[i]].template cast<S>() - expected(i)).squaredNorm();
-  };
+  const auto moved_squared = [&](std::size_t i) { return (place_of(x, particle_[i]) - expected(i)).squaredNorm(); };
   execute(watches_.size(), [&](std::size_t q) {
     Watch found{0, false, false};
     for (std::size_t i = q * chunk; i < std::min(particle_.size(), (q + 1) * chunk); ++i)

@@ -44,7 +44,7 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
         const Index j = lists_.awake[begin + l].particle;
         Master& master = masters_[begin + l];
         Moving& moving = moving_[begin + l];
-        const Point place = x[j].template cast<S>(), velocity = v[j].template cast<S>();
+        const Point place = lists_.place_of(x, j), velocity = v[j].template cast<S>();
         S size = 0;
         for (int r = 0; r < D; ++r) {
           master.x[r] = place[r];
@@ -118,7 +118,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
   const S over_radius_squared = S(1) / (radius * radius);
   Quad place;
-  detail::spread<S>(x[slave].template cast<S>(), place);
+  detail::spread<S>(lists_.place_of(x, slave), place);
 
   Surface surface;
   for (std::size_t k = begin; k < end; ++k) {

@@ -77,6 +77,10 @@ struct ContactReport {
 /// Results are the same to the bit for any executor, and do not depend on when lists were built as long as `late` of
 /// the report stays zero: what deforms much within a few steps, as in an impact at half of the speed of sound, may be
 /// seen a few steps late.
+/// Where `S` is narrower than the scalars of the positions, such as float and double, places are measured from an
+/// origin: zero, unless the middle of all organs lies further from it than about a thousand spacings (float) when lists
+/// are built; then it becomes the origin. So it stays where it is from step to step and results do not jump, but for
+/// rounding each time that all organs together have travelled that far.
 /// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
 /// error of that.
 template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>

@@ -331,6 +331,39 @@ TEST(Plain, EveryForceIsThatOfTheEquationsTakenLiterally) {
   compare_with_plain<PaperMetaball, PaperFriction>(1, false);
 }
 
+/// The largest error of a force, over the largest force, of a pile that lies `distance` (m) from zero, computed in `S`
+/// and compared with double at zero.
+template <class S>
+double error_far_away(double distance, bool through_far_away) {
+  bodies::Pile<double, 3> pile(0.95, 2e-3);
+  MetaballContact<double, 3> exact({.spacing = 2e-3, .density = 1000});
+  pile.declare(exact);
+  pile.apply(exact, dt);
+  const auto expected = pile.f;
+  double biggest = 0, error = 0;
+  for (const auto& f : expected) biggest = std::max(biggest, f.norm());
+  MetaballContact<S, 3> contact({.spacing = 2e-3, .density = 1000});
+  pile.declare(contact);
+  const hmps::Vector<double, 3> shift(distance, 0.5 * distance, -distance);
+  // Either it lies there from the beginning, or it travels there after lists were built at zero.
+  if (through_far_away) pile.apply(contact, dt);
+  for (auto& x : pile.x) x += shift;
+  pile.apply(contact, dt);
+  for (std::size_t i = 0; i < expected.size(); ++i) error = std::max(error, (pile.f[i] - expected[i]).norm() / biggest);
+  return error;
+}
+
+TEST(Precision, FloatIsAsGoodFarFromZeroAsNearIt) {
+  // Float resolves places ten spacings from the origin to 10 eps spacings; the penetration is 0.05 spacings. As much
+  // from double, whose numbers at `distance` are 2e-16 of it apart. Where the middle of all is within about a thousand
+  // spacings of zero, as at 0.5 m, zero is the origin and places are resolved to 1e-4 spacings.
+  const double near = 10 * static_cast<double>(std::numeric_limits<float>::epsilon()) / 0.05;
+  for (const double distance : {0., 0.5, 10., 1000.}) {
+    const double tolerance = distance == 0.5 ? 1e-4 / 0.05 : near + 2e-16 * distance / 1e-4;
+    for (const bool travels : {false, true}) EXPECT_LE(error_far_away<float>(distance, travels), tolerance) << distance;
+  }
+}
+
 TEST(Overload, UndeformedParticlesNeedNoGradients) {
   bodies::Pile<double, 3> pile(0.9);
   MetaballContact<double, 3> with(with_friction), without(with_friction);
