@@ -125,9 +125,6 @@ class Candidates {
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
   void refresh() { built_ = false; }
 
-  /// Number of particles that the views must hold at least.
-  [[nodiscard]] std::size_t particles() const { return particles_; }
-
   /// The position of particle `i` of the view `x`, in m from the origin of the lists. Where `S` is narrower than the
   /// scalars of `x` that is rounded after the subtraction, so that it is as sharp far from zero as near it.
   template <class X>
@@ -139,6 +136,21 @@ class Candidates {
       return x[i].template cast<S>();
   }
 
+  [[nodiscard]] static bool may_be_slave(const Pair& pair, Index particle) {
+    return !std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle);
+  }
+  /// Throws `InputError` unless views of `size` particles hold all that organs name.
+  void require_particles(std::size_t size) const {
+    require(size >= particles_, "hmps: an organ names particle ", particles_ - 1, " but the views hold ", size,
+            " particles; indices count from 0 over all particles");
+  }
+  /// The particles of organ `o` in `role`, ascending.
+  [[nodiscard]] std::vector<Index> particles_of(std::size_t o, std::uint8_t role) const {
+    std::vector<Index> particles;
+    for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
+      if (members_[m].flags & role) particles.push_back(members_[m].particle);
+    return particles;
+  }
   /// Calls `visit(i)` for each particle of organ `o` that forces move.
   template <class Visit>
   void for_each_movable(std::size_t o, Visit&& visit) const {
@@ -194,9 +206,6 @@ class Candidates {
 
   /// In evaluations of one candidate.
   [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle_.size(); }
-  [[nodiscard]] static bool may_be_slave(const Pair& pair, Index particle) {
-    return !std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle);
-  }
   void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
   [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
   void add_side(std::size_t slaves, std::size_t masters);

@@ -4,4 +4,5 @@
 // Contact between organs: the class MetaballContact and what its members do.
 #include "hmps/contact/contact_evaluate.hpp"
 #include "hmps/contact/contact_forces.hpp"
+#include "hmps/contact/contact_overlaps.hpp"
 #include "hmps/contact/metaball_contact.hpp"

@@ -210,8 +210,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
           " s; give a positive number");
   require_size(x, x.size(), "positions");
   require_size(v, x.size(), "velocities");
-  require(x.size() >= lists_.particles(), "hmps: an organ names particle ", lists_.particles() - 1,
-          " but the views hold ", x.size(), " particles; indices count from 0 over all particles");
+  lists_.require_particles(x.size());
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
   ++call_;

@@ -21,10 +21,9 @@ S MetaballContact<S, D, Ball, Friction>::penalty(const PenaltyStiffness& stiffne
 }
 
 /// Throws `InputError` if a particle that the contact may move is too light for the penalty of its pair at step `dt`.
-/// `size`: number of particles in the views.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <PerParticle Rho>
-void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, std::size_t size, double dt) const {
+void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, double dt) const {
   detail::require_step(dt);
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const double least = stiffness(p).at(settings_.density, dt) * dt * dt;  // of densities, at k~ = 1
@@ -32,7 +31,6 @@ void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, std::s
       if (static_cast<double>(rho) > least) continue;
     for (const std::size_t o : {lists_.pairs[p].first, lists_.pairs[p].second})
       lists_.for_each_movable(o, [&](Index i) {
-        if (i >= size) return;
         const double own = static_cast<double>(at_particle(rho, i));
         require(own > least, "hmps: particle ", i, " of '", lists_.organs[o].name, "' has the density ", own,
                 " kg/m3, which makes its penalty ratio k~ = k dt^2 / rho = ", least / own,

@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "hmps/contact/candidates.hpp"
+#include "hmps/contact/contact_settings.hpp"
 #include "hmps/contact/master_surface.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
+#include "hmps/contact/overlaps.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/penetration.hpp"
 #include "hmps/core/abi.hpp"
@@ -28,40 +30,6 @@
 #include "hmps/lanes/quad.hpp"
 
 namespace hmps::inline HMPS_ABI {
-
-/// What a scene says about its contacts.
-struct ContactSettings {
-  double spacing;                                             ///< l0 in m.
-  double density;                                             ///< rho in kg/m3.
-  double friction = 0;                                        ///< mu_tan, \paper{23}; see also `PairSettings`.
-  PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
-  /// Normal damping as a fraction of the critical 2 sqrt(k rho); beyond the paper, which has none. It
-  /// is cut where it would reverse the closing velocity within a step.
-  double damping = 0;
-  double margin = 0.5;  ///< In spacings: how much motion the candidate lists bear before they are rebuilt.
-};
-
-/// What one evaluation of the contact met.
-template <class S>
-struct ContactReport {
-  std::size_t contacts = 0;  ///< Slaves with p > 0, counted once per organ that they touch.
-  std::size_t sticking = 0;  ///< Of those, the ones whose friction is below its limit.
-  /// Slaves that their wall has lost: so deep that it no longer tells which way is out, or pushed to the other side
-  /// since the call before. See `MetaballContact::check`. In walls of three layers and more that takes a penetration
-  /// of about 1.75 spacings, in thinner ones the middle. A slave between two faces of one organ that both touch it
-  /// looks like that too.
-  std::size_t deep = 0;
-  Index lost = 0;              ///< The deepest of them,
-  std::size_t lost_in = 0;     ///< the organ whose wall has lost it,
-  S lost_depth = 0;            ///< and its p in m, of an undeformed wall where that has no normal.
-  S penetration = 0;           ///< The largest p in m.
-  Index deepest = 0;           ///< Its slave.
-  std::size_t candidates = 0;  ///< Slave-master pairs that were looked at.
-  std::size_t rebuilds = 0;    ///< How often the grid search ran so far.
-  /// How many checks of the lists so far found some strain or normal to have changed by more than they allow for,
-  /// so that a touch could have been seen a few steps late. Zero or rare unless a run chatters.
-  std::size_t late = 0;
-};
 
 /// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
 /// reactions and friction. A functor that keeps only the lists of candidates and the latest normals; positions,
@@ -160,7 +128,8 @@ class MetaballContact {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
     require_size(F, x.size(), "deformation gradients");
     require_positive(rho, x.size(), "density", "kg/m3");
-    require_heavy(rho, x.size(), dt);
+    lists_.require_particles(x.size());
+    require_heavy(rho, dt);
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts == 0) return report;
     hand_out(
@@ -179,6 +148,23 @@ class MetaballContact {
   /// passes unseen that moves less than a spacing per step against the wall, as all do that are slower than sound.
   void check(const ContactReport<S>& report, double time = std::numeric_limits<double>::quiet_NaN()) const {
     if (report.deep > 0) fail(report, time);
+  }
+
+  /// Where organs reach into each other in the state `x` (m), `F`: ask before a run, since bodies that overlap at its
+  /// start are flung apart, or not seen at all where they lie deeper than metaballs reach. One entry for each pair and
+  /// role that has slaves in a wall. Depths are exact near the surface; from one spacing behind the slaves of the
+  /// wall's organ on they are judged by these, which have to form its surface: up to four spacings, and good to about
+  /// half a spacing. What lies behind a thin wall whose far side has no slaves counts as inside; of organs without
+  /// slaves only the metaballs tell. Costs as much as making all lists. Throws as the evaluation does.
+  template <class X, class M>
+  [[nodiscard]] std::vector<Overlap> overlaps(const VectorView<X, D>& x, const MatrixView<M, D>& F) const {
+    require_size(F, x.size(), "deformation gradients");
+    return find_overlaps(x, F);
+  }
+  /// The same for particles that do not deform.
+  template <class X>
+  [[nodiscard]] std::vector<Overlap> overlaps(const VectorView<X, D>& x) const {
+    return find_overlaps(x, detail::Undeformed<double, D>{});
   }
 
   /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second, in
@@ -249,6 +235,8 @@ class MetaballContact {
   [[nodiscard]] bool lost(const Surface& surface, Index seat_of, const Centres& centres, const RowState& state);
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
+  template <class X, class G>
+  [[nodiscard]] std::vector<Overlap> find_overlaps(const X& x, const G& F) const;
   void resize();
   template <class X, class V, class G, class E>
   void gather(const X& x, const V& v, const G& F, const E& execute);
@@ -261,7 +249,7 @@ class MetaballContact {
   }
   [[nodiscard]] S penalty(const PenaltyStiffness& stiffness, double dt) const;
   template <PerParticle Rho>
-  void require_heavy(const Rho& rho, std::size_t size, double dt) const;
+  void require_heavy(const Rho& rho, double dt) const;
   void set_laws(double dt);
   template <class E>
   void weigh(const E& execute);
