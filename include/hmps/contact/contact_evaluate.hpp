@@ -24,7 +24,7 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   batch_rows_.resize(row_count);
   touching_.reserve(row_count);
   batches_.resize((row_count + batch - 1) / batch);
-  seats_.resize(lists_.seats);
+  history_.resize(lists_.seats);
 }
 
 /// F_j^-1 once per particle, many at a time.
@@ -42,8 +42,8 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
       const auto A = right_cauchy_green<Lanes<S>, D>(B);
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
         const Index j = lists_.awake[begin + l].particle;
-        Master& master = masters_[begin + l];
-        Moving& moving = moving_[begin + l];
+        auto& master = masters_[begin + l];
+        auto& moving = moving_[begin + l];
         const Point place = lists_.place_of(x, j), velocity = v[j].template cast<S>();
         S size = 0;
         for (int r = 0; r < D; ++r) {
@@ -84,77 +84,35 @@ void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& 
   }
 }
 
-/// Whether the wall has lost a slave that touches it. Where the sum falls less than it should across a wall it no
-/// longer tells which way is out. In a wall of one layer that happens nearer than 0.6 spacings; further off it also
-/// falls little. What is fast may jump over that place, but then the wall has come to push to the other side since the
-/// slave was that far off.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-bool MetaballContact<S, D, Ball, Friction>::lost(const Surface& surface, Index seat_of, const Centres& centres,
-                                                 const RowState& state) {
-  const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
-  const bool inside = centres.value < S(0.6) * l0;
-  const bool deep =
-      centres.deep || (inside && surface.gradient(S(1) / (radius * radius)).norm() * surface.stretch(state.normal) <
-                                     lists_.normal_density.least_slope());
-  Seat& seat = seats_[seat_of];
-  const Vector<float, D> outward = surface.unturned(state.normal).template cast<float>().normalized();
-  const bool known = seat.call + 1 == call_, turned = known && seat.outward.dot(outward) < -0.5F;
-  if (!known || !inside) seat.outward = outward;
-  seat.call = call_;
-  return deep || turned;
-}
-
-/// One slave against one wall: \paper{28} to \paper{38}. True if it touches. `depth` is set where the wall has lost it.
+/// Row `r`: true if its slave touches, and then its weights of \paper{41, 42}. `depth` is set where the wall has lost
+/// it.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G>
 bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
   const auto& row = lists_.rows[r];
-  const std::size_t begin = row.begin, end = lists_.rows[r + 1].begin;
+  const std::size_t begin = row.begin, size = lists_.rows[r + 1].begin - begin;
   const Index slave = lists_.awake[row.slave].particle;
-  const Index* master_of = lists_.master_of.data();
-  S* weight = weight_.data();
+  S *weight = weight_.data() + begin, *entry_weight = entry_weight_.data();
+  const Index* entry = lists_.entry_of.data() + begin;
   RowState& state = state_[r];
-  const bool touched = state.penetration > S(0);
-  const S l0 = lists_.normal_density.spacing(), radius = static_cast<S>(Ball::radius) * l0;
-  const S over_radius_squared = S(1) / (radius * radius);
   Quad place;
   detail::spread<S>(lists_.place_of(x, slave), place);
 
-  Surface surface;
-  for (std::size_t k = begin; k < end; ++k) {
-    const Master& master = masters_[master_of[k]];
-    Quad towards = master.x;
-    towards -= place;
-    weight[k] = surface.reach(master.A, towards, over_radius_squared);
-  }
-  const Centres centres = lists_.normal_density.inverse(surface.density());
-  bool touches = centres.reached;
-  if (touches && !surface.normal(radius, state.normal)) {
-    depth = l0 - centres.value;
-    touches = false;
-  }
-  if (touches) {
-    const S support = slave_support<S, D>(F[slave].template cast<S>(), state.normal, l0);
-    // The stretch is at least 1 / compression: the others need no second pass.
-    touches = surface_distance(S(1), centres.value, l0) < support * row.compression;
-    if (touches) {
-      for (std::size_t k = begin; k < end; ++k)
-        if (weight[k] > S(0)) surface.mean(weight[k], moving_[master_of[k]].B, moving_[master_of[k]].v);
-      const S distance = surface_distance(surface.stretch(state.normal), centres.value, l0);
-      state.penetration = penetration(support, distance);
-      touches = state.penetration > S(0);
-    }
-  }
-  const Index* entry = lists_.entry_of.data();
-  S* entry_weight = entry_weight_.data();
+  const detail::SlaveContact<S, D> contact = detail::slave_contact<S, D, Ball>(
+      lists_.normal_density, place, {masters_.data(), moving_.data(), lists_.master_of.data() + begin, size},
+      row.compression, [&] { return F[slave].template cast<S>().eval(); },
+      [&] { return v[slave].template cast<S>().eval(); }, state.normal, weight);
+  const bool touches = contact.penetration > S(0);
+  const bool turned = touches && history_.turned_round(row.seat, contact.outward, contact.inside);
+  if (contact.lost || turned) depth = contact.depth;
   if (!touches) {
-    for (std::size_t k = begin; touched && k < end; ++k) entry_weight[entry[k]] = 0;
+    if (state.penetration > S(0))  // in the call before
+      for (std::size_t k = 0; k < size; ++k) entry_weight[entry[k]] = 0;
     return false;
   }
-  if (lost(surface, row.seat, centres, state)) depth = state.penetration;
-  state.slip = surface.relative_velocity(v[slave].template cast<S>());
-  const S over_density = S(1) / surface.density();
-  for (std::size_t k = begin; k < end; ++k) entry_weight[entry[k]] = weight[k] *= over_density;
+  state.penetration = contact.penetration;
+  state.slip = contact.slip;
+  for (std::size_t k = 0; k < size; ++k) entry_weight[entry[k]] = weight[k] *= contact.over_density;
   return true;
 }
 
@@ -213,7 +171,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
   lists_.require_particles(x.size());
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
-  ++call_;
+  history_.next_call();
   const std::size_t row_count = lists_.rows.size() - 1;
   ContactReport<S> report;
   report.candidates = lists_.master_of.size();

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "hmps/contact/candidates.hpp"
+#include "hmps/contact/contact_history.hpp"
 #include "hmps/contact/contact_settings.hpp"
-#include "hmps/contact/master_surface.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
 #include "hmps/contact/overlaps.hpp"
 #include "hmps/contact/penalty.hpp"
-#include "hmps/contact/penetration.hpp"
+#include "hmps/contact/slave_contact.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
@@ -89,7 +89,7 @@ class MetaballContact {
   /// Builds all lists anew at the next call. Not needed after steps in time.
   void refresh() {
     lists_.refresh();
-    ++call_;
+    history_.next_call();
   }
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
@@ -182,21 +182,9 @@ class MetaballContact {
 
  private:
   using Quad = detail::Quad<S>;
-  using Surface = MasterSurface<S, D, Ball>;
-  using Centres = typename NormalDensity<S, D, Ball>::Distance;
-  struct alignas(64) Master {  // a cache line of float
-    Quad x, A[D];              // A = F^-T F^-1
-  };
-  struct alignas(64) Moving {
-    Quad v, B[D];  // B = F^-1
-  };
   struct RowState {
     Point normal, slip;  // slip: v_im
     S penetration;       // positive where the row touches, or did in the call before
-  };
-  struct Seat {                // what is remembered of a slave of one wall
-    Vector<float, D> outward;  // before the masters turned, when it was last less than half inside
-    std::uint32_t call = 0;    // in which it touched
   };
   struct Batch {
     std::size_t count = 0, deep = 0;
@@ -232,7 +220,6 @@ class MetaballContact {
     require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
             "; give zero or a positive number");
   }
-  [[nodiscard]] bool lost(const Surface& surface, Index seat_of, const Centres& centres, const RowState& state);
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
   template <class X, class G>
@@ -262,8 +249,8 @@ class MetaballContact {
   std::vector<PairSetting> own_;  // per pair: in place of what `settings_` says
   std::vector<PairLaw> laws_;     // per pair: of the present call
   Lists lists_;
-  std::vector<Master> masters_;  // per awake particle
-  std::vector<Moving> moving_;
+  std::vector<detail::Master<S, D>> masters_;  // per awake particle
+  std::vector<detail::MovingMaster<S, D>> moving_;
   // Per candidate, row by row, c / C where the row touches; and master by master, 0 where it does not.
   std::vector<S> weight_, entry_weight_;
   std::vector<RowState> state_;  // per row
@@ -272,8 +259,7 @@ class MetaballContact {
   std::vector<Batch> batches_;
   std::vector<Index> suspect_;  // per batch of `gather`, the first awake particle with a number that is not finite
   std::vector<S> load_;         // per awake particle: N
-  std::vector<Seat> seats_;
-  std::uint32_t call_ = 1;
+  detail::ContactHistory<D> history_;
 };
 
 }  // namespace hmps::inline HMPS_ABI

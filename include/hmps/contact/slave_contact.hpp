@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "hmps/contact/master_surface.hpp"
+#include "hmps/contact/metaball.hpp"
+#include "hmps/contact/normal_density.hpp"
+#include "hmps/contact/penetration.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/inline.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/lanes/quad.hpp"
+
+/// The contact of one slave with one wall, sections 2.7 to 2.9 of the paper: what is computed, without how slaves and
+/// masters are found or where results go.
+namespace hmps::inline HMPS_ABI::detail {
+
+/// What is needed of each master to know how near its wall is; a cache line of float.
+template <class S, int D>
+struct alignas(64) Master {
+  Quad<S> x, A[D];  // position in m, and the columns of A = F^-T F^-1
+};
+/// What is needed besides of the masters of a wall that is touched.
+template <class S, int D>
+struct alignas(64) MovingMaster {
+  Quad<S> v, B[D];  // velocity in m/s, and the columns of B = F^-1
+};
+
+/// The masters of a wall: those with the numbers `number[0]` to `number[size - 1]`.
+template <class S, int D>
+struct Wall {
+  const Master<S, D>* masters;
+  const MovingMaster<S, D>* moving;
+  const Index* number;
+  std::size_t size;
+};
+
+/// What a slave meets at a wall.
+template <class S, int D>
+struct SlaveContact {
+  S penetration = 0;  ///< p in m, \paper{38}; zero: it does not touch, and nothing below is set but `lost`.
+  Vector<S, D> slip;  ///< v_im in m/s, \paper{31}.
+  S over_density;     ///< 1 / C_im
+  /// The slave is so deep that the wall does not tell which way is out, or gives no normal at all.
+  bool lost = false;
+  S depth = 0;               ///< How deep it is then, in m: p, or that of an undeformed wall where there is no normal.
+  bool inside;               ///< Its centre is nearer than 0.6 spacings to those of the wall's outermost layer.
+  Vector<float, D> outward;  ///< The normal before the masters turned.
+};
+
+/// Evaluates a slave at `place` (m) against `wall`. Writes the normal n_m to `normal` if the wall is within reach, and
+/// the metaballs c_ij of all masters to `c`. `gradient()` returns F_i and `velocity()` v_i in m/s; they are asked for
+/// where they are needed, which for most slaves is never. `compression` bounds the inverse of the stretch from above.
+template <class S, int D, Metaball Ball, class Gradient, class Velocity>
+[[nodiscard]] HMPS_INLINE SlaveContact<S, D> slave_contact(const NormalDensity<S, D, Ball>& Z, const Quad<S>& place,
+                                                           const Wall<S, D>& wall, S compression, Gradient&& gradient,
+                                                           Velocity&& velocity, Vector<S, D>& normal, S* c) {
+  const S l0 = Z.spacing(), radius = static_cast<S>(Ball::radius) * l0;
+  const S over_radius_squared = S(1) / (radius * radius);
+  SlaveContact<S, D> contact;
+
+  MasterSurface<S, D, Ball> surface;
+  for (std::size_t k = 0; k < wall.size; ++k) {
+    const Master<S, D>& master = wall.masters[wall.number[k]];
+    Quad<S> towards = master.x;
+    towards -= place;
+    c[k] = surface.reach(master.A, towards, over_radius_squared);  // (26), (28), (30)
+  }
+  const auto centres = Z.inverse(surface.density());  // R_im, (29)
+  if (!centres.reached) return contact;
+  if (!surface.normal(radius, normal)) {
+    contact.lost = true;
+    contact.depth = l0 - centres.value;
+    return contact;
+  }
+  const S support = slave_support<S, D>(gradient(), normal, l0);  // r_i, (37)
+  // The stretch is at least 1 / compression: most that are near need no second pass.
+  if (!(surface_distance(S(1), centres.value, l0) < support * compression)) return contact;
+
+  for (std::size_t k = 0; k < wall.size; ++k)
+    if (c[k] > S(0)) {
+      const MovingMaster<S, D>& master = wall.moving[wall.number[k]];
+      surface.mean(c[k], master.B, master.v);  // (31), (33)
+    }
+  const S stretch = surface.stretch(normal);                                       // (32)
+  const S p = penetration(support, surface_distance(stretch, centres.value, l0));  // (34) to (36), (38)
+  if (!(p > S(0))) return contact;
+
+  contact.penetration = contact.depth = p;
+  contact.slip = surface.relative_velocity(velocity());  // (31)
+  contact.over_density = S(1) / surface.density();
+  // Where the sum falls less than it should across a wall it no longer tells which way is out. In a wall of one layer
+  // that happens nearer than 0.6 spacings; further off it also falls little.
+  contact.inside = centres.value < S(0.6) * l0;
+  contact.lost =
+      centres.deep || (contact.inside && surface.gradient(over_radius_squared).norm() * stretch < Z.least_slope());
+  contact.outward = surface.unturned(normal).template cast<float>().normalized();
+  return contact;
+}
+
+}  // namespace hmps::inline HMPS_ABI::detail
