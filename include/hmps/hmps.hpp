@@ -31,6 +31,7 @@
 #include "hmps/contact/contact_history.hpp"
 #include "hmps/contact/contact_overlaps.hpp"
 #include "hmps/contact/contact_settings.hpp"
+#include "hmps/contact/lists/organ_pairs.hpp"
 #include "hmps/contact/master_surface.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/metaball_contact.hpp"

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/contact/lists/organ_pairs.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
@@ -58,7 +59,7 @@ template <class T, int D>
 /// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how far those of a row
 /// may be off that before its slave could touch. From then on every call looks how far each particle truly is off, and
 /// wakes the rows for which that is too far; what is awake makes up the inner list. A check is due when
-/// the rows woken since the last one have cost as much as it does, and after `longest_nap` calls (fewer
+/// the rows woken since the last one have cost as much as it does, and after `longest_interval` calls (fewer
 /// where much is awake or moves fast), for deformation gradients change too.
 ///
 /// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when
@@ -70,30 +71,12 @@ template <class S, int D, Metaball Ball>
 class Candidates {
  public:
   using Point = Vector<S, D>;
-  static constexpr std::uint8_t is_slave = 1, is_master = 2, is_prescribed = 4;
-  static constexpr Index none = std::numeric_limits<Index>::max();
+  static constexpr Index none = no_particle;
 
-  struct OrganRange {
-    std::string name;
-    std::size_t begin, end;  // of members
-    Point moved;             // mean displacement since the outer list was built
-    S motion, growth;        // largest displacement beyond it, largest growth of a reach
-  };
-  struct Side {
-    std::size_t slaves, masters;  // organs
-    std::size_t pair;
-    std::size_t first_seat;  // its slaves have a seat each, for what is to be remembered of them from call to call
-    S limit;                 // motion that the outer list bears
-  };
-  struct Pair {
-    std::size_t first, second;
-    std::vector<Index> excluded_slaves;
-    std::function<bool(Index, Index)> excluded;
-  };
   struct Row {
     Index slave;  // of the awake particles
     std::uint32_t side;
-    Index seat;
+    Index slot;
     Index begin;    // of its candidates
     S compression;  // bound of |F_j^-1| of its masters until the next check
   };
@@ -104,9 +87,6 @@ class Candidates {
   };
 
   NormalDensity<S, D, Ball> normal_density;
-  std::vector<OrganRange> organs;
-  std::vector<Pair> pairs;
-  std::vector<Side> sides;
 
   // The inner list. `rows` and `awake` hold one more at the end, where the last one's ends begin.
   std::vector<Row> rows;
@@ -115,14 +95,24 @@ class Candidates {
   std::vector<Index> entry_of;    // per candidate, its place among the entries of its master
   std::vector<Index> entry_rows;  // per entry, the row of that candidate: ascending for each master
   std::vector<Index> slave_rows;  // the rows of each slave, ascending
-  std::size_t rebuilds = 0, checks = 0, late = 0, seats = 0;
+  std::size_t rebuilds = 0, checks = 0, late = 0;
 
   /// `spacing` and `margin` in m.
   Candidates(S spacing, S margin)
       : normal_density(spacing), radius_(static_cast<S>(Ball::radius) * spacing), margin_(margin) {}
 
-  std::size_t add_organ(const Organ& organ);
-  std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
+  std::size_t add_organ(const Organ& organ) {
+    const std::size_t added = organs_.add_organ(organ);
+    parts_.clear();
+    built_ = false;
+    return added;
+  }
+  std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
+    const std::size_t added = organs_.add_pair(a, b, settings);
+    built_ = false;
+    return added;
+  }
+  [[nodiscard]] const OrganPairs& organs() const { return organs_; }
   void refresh() { built_ = false; }
 
   /// The position of particle `i` of the view `x`, in m from the origin of the lists. Where `S` is narrower than the
@@ -136,28 +126,6 @@ class Candidates {
       return x[i].template cast<S>();
   }
 
-  [[nodiscard]] static bool may_be_slave(const Pair& pair, Index particle) {
-    return !std::binary_search(pair.excluded_slaves.begin(), pair.excluded_slaves.end(), particle);
-  }
-  /// Throws `InputError` unless views of `size` particles hold all that organs name.
-  void require_particles(std::size_t size) const {
-    require(size >= particles_, "hmps: an organ names particle ", particles_ - 1, " but the views hold ", size,
-            " particles; indices count from 0 over all particles");
-  }
-  /// The particles of organ `o` in `role`, ascending.
-  [[nodiscard]] std::vector<Index> particles_of(std::size_t o, std::uint8_t role) const {
-    std::vector<Index> particles;
-    for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
-      if (members_[m].flags & role) particles.push_back(members_[m].particle);
-    return particles;
-  }
-  /// Calls `visit(i)` for each particle of organ `o` that forces move.
-  template <class Visit>
-  void for_each_movable(std::size_t o, Visit&& visit) const {
-    for (std::size_t m = organs[o].begin; m < organs[o].end; ++m)
-      if (!(members_[m].flags & is_prescribed)) visit(members_[m].particle);
-  }
-
   /// Keeps the lists valid for this call; true if the inner one has changed.
   template <class X, class Gradients, class E>
   bool update(const X& x, const Gradients& F, const E& execute);
@@ -167,15 +135,15 @@ class Candidates {
   void check(const X& x, const Gradients& F, const E& execute);
 
  private:
-  static constexpr std::size_t chunk = 512, shortest_nap = 8, longest_nap = 64;
+  static constexpr std::size_t chunk = 512, shortest_interval = 8, longest_interval = 64;
   // What a particle may do until the next check, beside going on as it went: a multiple of what it did since the last,
   // but this at least (motion in spacings; strain as a share by which lengths measured by A change; turn of a normal
   // in rad).
   static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05), least_turn = S(0.03),
                      first_turn = S(0.2);
-  struct Member {
-    Index particle, number;
-    std::uint8_t flags;
+  struct OrganMotion {  // since the outer list was built
+    Point moved;        // mean displacement
+    S motion, growth;   // largest displacement beyond it, largest growth of a reach
   };
   struct Part {  // of an organ's members
     std::size_t organ, begin, end;
@@ -183,14 +151,14 @@ class Candidates {
     Point sum;
   };
   struct Watch {  // of particles
-    std::size_t strayed;
+    std::size_t exceeding;
     bool far, late;
     Index flat = none;  // the first of those without an inverse of F
   };
   struct OuterRow {
     Index slave;  // of the numbered particles
     std::uint32_t side;
-    Index seat;
+    Index slot;
     Index begin, kept;  // of its candidates, and the end of those within reach before the next check
     S compression;
     S rest;  // by which share of its bound each of its particles may move before it has to wake; zero: awake
@@ -205,28 +173,28 @@ class Candidates {
   };
 
   /// In evaluations of one candidate.
-  [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle_.size(); }
-  void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
-  [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
-  void add_side(std::size_t slaves, std::size_t masters);
+  [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle().size(); }
+  [[nodiscard]] const std::vector<OrganPairs::Side>& sides() const { return organs_.sides(); }
+  [[nodiscard]] const std::vector<OrganPairs::Member>& members() const { return organs_.members(); }
+  [[nodiscard]] const std::vector<Index>& particle() const { return organs_.particle(); }
   void number();
   template <class X, class Gradients, class E>
   [[nodiscard]] bool measure(const X& x, const Gradients& F, const E& execute);
   template <class E>
   void measure_organs(const E& execute);
-  [[noreturn]] void fail(const OrganRange& organ) const;
+  [[noreturn]] void fail(const OrganPairs::OrganRange& organ) const;
   template <class X>
   void choose_origin(const X& x);
   template <class Gradients>
   void check_flat(const Gradients& F) const;
-  [[nodiscard]] S used(const Side& side) const;
+  [[nodiscard]] S used(std::size_t side) const;
   template <class E>
   void build(const E& execute);
   template <class E>
   void build_side(std::uint32_t side, const E& execute);
   void list_rows_of_particles();
   [[nodiscard]] Point expected(std::size_t i) const { return place_[i] + static_cast<S>(age_) * drift_[i]; }
-  [[nodiscard]] S longer() const { return static_cast<S>(nap_) / static_cast<S>(std::max<std::size_t>(age_, 1)); }
+  [[nodiscard]] S longer() const { return static_cast<S>(interval_) / static_cast<S>(std::max<std::size_t>(age_, 1)); }
   void put_to_sleep(std::size_t row);
   [[nodiscard]] S widest(const OuterRow& row);
   template <class X, class E>
@@ -237,11 +205,11 @@ class Candidates {
 
   S radius_, margin_;
   Vector<double, D> origin_ = Vector<double, D>::Zero();  // in m: from where places are measured
-  std::vector<Member> members_;                           // organ after organ, sorted by particle
+  OrganPairs organs_;
+  std::vector<OrganMotion> motion_;  // per organ
+  std::vector<S> limit_;             // per side: motion that the outer list bears
   std::vector<Part> parts_;
   // Of the numbered particles.
-  std::vector<Index> particle_;
-  std::vector<std::uint8_t> flags_;
   std::vector<Point> place_, built_place_;  // at the latest check and build
   std::vector<Point> drift_;                // motion per call that is expected until the next check
   std::vector<Matrix<S, D>> metric_;        // A = F^-T F^-1 at the latest check
@@ -250,16 +218,16 @@ class Candidates {
   std::vector<S> bound_, strain_;           // of motion beside the drift in m and strain, until the next check
   std::vector<S> travel_;                   // bound and drift in m
   std::vector<S> allowance_;                // square of the motion that wakes a row or makes a check due
-  std::vector<Index> strayed_;
+  std::vector<Index> exceeding_;
   std::vector<Watch> watches_;
   // The outer list.
   std::vector<OuterRow> outer_rows_;  // one more at the end
   std::vector<Index> outer_master_, kept_master_;
-  std::vector<Facing> facing_;                  // per seat
+  std::vector<Facing> facing_;                  // per slot
   std::vector<Index> rows_of_begin_, rows_of_;  // the outer rows that each particle is in
   // Scratch.
   std::vector<Index> awake_of_, next_;
-  std::size_t particles_ = 0, age_ = 0, nap_ = longest_nap, woken_ = 0, woken_work_ = 0;
+  std::size_t age_ = 0, interval_ = longest_interval, newly_active_ = 0, active_work_ = 0;
   bool built_ = false;
 };
 

@@ -9,13 +9,13 @@ namespace hmps::inline HMPS_ABI::detail {
 template <class S, int D, Metaball Ball>
 template <class X, class Gradients, class E>
 bool Candidates<S, D, Ball>::update(const X& x, const Gradients& F, const E& execute) {
-  woken_work_ += woken_;
-  const std::size_t woken_before = woken_;
-  if (!built_ || ++age_ >= nap_ || woken_work_ > cost_of_check() || !watch(x, execute)) {
+  active_work_ += newly_active_;
+  const std::size_t active_before = newly_active_;
+  if (!built_ || ++age_ >= interval_ || active_work_ > cost_of_check() || !watch(x, execute)) {
     check(x, F, execute);
     return true;
   }
-  if (woken_ == woken_before) return false;
+  if (newly_active_ == active_before) return false;
   select();
   return true;
 }
@@ -27,28 +27,30 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
     number();
     built_ = false;
   }
-  if (!built_) facing_.assign(seats, {Point::Zero(), first_turn, false, false});
+  if (!built_) facing_.assign(organs_.slots(), {Point::Zero(), first_turn, false, false});
   // Sharper lists are worth about a tenth of what is spent on evaluating them.
-  nap_ = std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), shortest_nap, longest_nap);
+  interval_ =
+      std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), shortest_interval, longest_interval);
   bool is_late = measure(x, F, execute);
   measure_organs(execute);
   ++checks;
-  for (const Side& side : sides)
-    if (!(used(side) + S(0.4) * margin_ < side.limit)) built_ = false;
+  limit_.resize(sides().size());
+  for (std::size_t s = 0; s < limit_.size(); ++s)
+    if (!(used(s) + S(0.4) * margin_ < limit_[s])) built_ = false;
   if (!built_) {
     choose_origin(x);
     build(execute);
   }
   // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();
-  for (const Side& side : sides) most = std::min(most, S(0.4) * (side.limit - used(side)));
+  for (std::size_t s = 0; s < limit_.size(); ++s) most = std::min(most, S(0.4) * (limit_[s] - used(s)));
   const S most_drift = S(0.5) * most;
   S fastest = 0;
   for (const Point& drift : drift_) fastest = std::max(fastest, drift.norm());
-  if (static_cast<S>(nap_) * fastest > most_drift)
-    nap_ = std::max(shortest_nap, static_cast<std::size_t>(most_drift / fastest));
+  if (static_cast<S>(interval_) * fastest > most_drift)
+    interval_ = std::max(shortest_interval, static_cast<std::size_t>(most_drift / fastest));
   for (std::size_t i = 0; i < bound_.size(); ++i) {
-    const S drift = static_cast<S>(nap_) * drift_[i].norm();
+    const S drift = static_cast<S>(interval_) * drift_[i].norm();
     if (drift > most_drift) drift_[i] *= most_drift / drift;
     bound_[i] = std::min(bound_[i], most - std::min(drift, most_drift));
     travel_[i] = bound_[i] + std::min(drift, most_drift);
@@ -61,7 +63,7 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   });
   for (std::size_t r = 0; r < count; ++r) {
     const OuterRow& row = outer_rows_[r];
-    is_late = is_late || facing_[row.seat].late;
+    is_late = is_late || facing_[row.slot].late;
     if (!(row.rest > S(0) && row.rest < S(1))) continue;
     const auto limit = [&](Index i) {
       const S motion = row.rest * bound_[i];
@@ -71,14 +73,14 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
     for (Index k = row.begin; k < row.kept; ++k) limit(kept_master_[k]);
   }
   late += is_late;
-  age_ = woken_ = woken_work_ = 0;
+  age_ = newly_active_ = active_work_ = 0;
   select();
 }
 
 /// How much of its limit a side has used up since the outer list was built.
 template <class S, int D, Metaball Ball>
-S Candidates<S, D, Ball>::used(const Side& side) const {
-  const OrganRange &a = organs[side.slaves], &b = organs[side.masters];
+S Candidates<S, D, Ball>::used(std::size_t side) const {
+  const OrganMotion &a = motion_[sides()[side].slaves], &b = motion_[sides()[side].masters];
   return a.motion + b.motion + (a.moved - b.moved).norm() + b.growth;
 }
 
@@ -91,16 +93,16 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
   execute(watches_.size(), [&](std::size_t q) {
     bool late_here = false;
     Index flat = none;
-    const std::size_t end = std::min(particle_.size(), (q + 1) * chunk);
+    const std::size_t end = std::min(particle().size(), (q + 1) * chunk);
     for (std::size_t begin = q * chunk; begin < end; begin += width) {
       const auto deformation =
-          gather_gradients<S, D>(F, [&](std::size_t l) { return particle_[std::min(begin + l, end - 1)]; });
+          gather_gradients<S, D>(F, [&](std::size_t l) { return particle()[std::min(begin + l, end - 1)]; });
       const auto B = inverse<Lanes<S>, D>(deformation);
       const auto A = right_cauchy_green<Lanes<S>, D>(B);
       const Lanes<S> stretch = stretch_bound<Lanes<S>, D>(deformation), compression = stretch_bound<Lanes<S>, D>(B);
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
         const std::size_t i = begin + l;
-        const Point place = place_of(x, particle_[i]);
+        const Point place = place_of(x, particle()[i]);
         bound_[i] = std::numeric_limits<S>::max();
         if (built_)
           bound_[i] = least_motion * normal_density.spacing() + S(2) * longer() * (place - expected(i)).norm();
@@ -152,7 +154,7 @@ void Candidates<S, D, Ball>::choose_origin(const X& x) {
     const Vector<double, D> middle = 0.5 * (low.template cast<double>() + high.template cast<double>());
     if (place_.empty() || middle.cwiseAbs().maxCoeff() <= far) return;
     origin_ += middle;
-    for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = place_of(x, particle_[i]);
+    for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = place_of(x, particle()[i]);
   }
 }
 
@@ -163,8 +165,8 @@ template <class Gradients>
 void Candidates<S, D, Ball>::check_flat(const Gradients& F) const {
   for (std::size_t q = 0; q < watches_.size(); ++q) {
     if (watches_[q].flat == none) continue;
-    for (std::size_t i = watches_[q].flat; i < std::min(particle_.size(), (q + 1) * chunk); ++i)
-      require_gradient<D>(F[particle_[i]].template cast<double>(), particle_[i]);
+    for (std::size_t i = watches_[q].flat; i < std::min(particle().size(), (q + 1) * chunk); ++i)
+      require_gradient<D>(F[particle()[i]].template cast<double>(), particle()[i]);
   }
 }
 
@@ -174,47 +176,47 @@ template <class E>
 void Candidates<S, D, Ball>::measure_organs(const E& execute) {
   execute(parts_.size(), [&](std::size_t q) {
     Part& part = parts_[q];
-    const Point shift = organs[part.organ].moved;
+    const Point shift = motion_[part.organ].moved;
     part.motion = part.growth = 0;
     part.sum.setZero();
     for (std::size_t m = part.begin; m < part.end; ++m) {
-      const Index i = members_[m].number;
+      const Index i = members()[m].number;
       const Point u = built_ ? Point(place_[i] - built_place_[i]) : place_[i];
       part.sum += u;
       part.motion = std::max(part.motion, (u - shift).squaredNorm());
-      if (built_ && (members_[m].flags & is_master)) part.growth = std::max(part.growth, reach_[i] - built_reach_[i]);
+      if (built_ && (members()[m].flags & is_master)) part.growth = std::max(part.growth, reach_[i] - built_reach_[i]);
     }
   });
-  std::vector<Point> shift(organs.size());
-  for (std::size_t o = 0; o < organs.size(); ++o) {
-    shift[o] = organs[o].moved;
-    organs[o].motion = organs[o].growth = 0;
-    organs[o].moved.setZero();
+  std::vector<Point> shift(motion_.size());
+  for (std::size_t o = 0; o < motion_.size(); ++o) {
+    shift[o] = motion_[o].moved;
+    motion_[o] = {Point::Zero(), 0, 0};
   }
   for (const Part& part : parts_) {
-    OrganRange& organ = organs[part.organ];
+    OrganMotion& organ = motion_[part.organ];
     organ.motion = std::max(organ.motion, part.motion);
     organ.growth = std::max(organ.growth, part.growth);
     organ.moved += part.sum;
   }
-  for (std::size_t o = 0; o < organs.size(); ++o) {
-    OrganRange& organ = organs[o];
+  for (std::size_t o = 0; o < motion_.size(); ++o) {
+    OrganMotion& organ = motion_[o];
+    const auto& range = organs_.organs()[o];
     // A NaN slips through the maxima but not through the sum.
-    if (!all_finite(organ.moved)) fail(organ);
+    if (!all_finite(organ.moved)) fail(range);
     // `motion` was measured beyond the mean of the check before, which serves as well as the present.
-    const Point mean = organ.moved / static_cast<S>(organ.end - organ.begin);
+    const Point mean = organ.moved / static_cast<S>(range.end - range.begin);
     organ.motion = std::sqrt(organ.motion) + (mean - shift[o]).norm();
     organ.moved = mean;
   }
 }
 
 template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::fail(const OrganRange& organ) const {
+void Candidates<S, D, Ball>::fail(const OrganPairs::OrganRange& organ) const {
   for (std::size_t m = organ.begin; m < organ.end; ++m)
     for (int c = 0; c < D; ++c)
-      if (const S place = place_[members_[m].number][c]; !is_finite(place))
+      if (const S place = place_[members()[m].number][c]; !is_finite(place))
         throw StateError(message("hmps: contact found component ", c, " of the position of particle ",
-                                 members_[m].particle, " of '", organ.name, "' to be ", place,
+                                 members()[m].particle, " of '", organ.name, "' to be ", place,
                                  "; the run has become unstable: try a shorter step or a softer penalty"));
   throw StateError(message("hmps: contact found the positions of '", organ.name,
                            "' to overflow; the run has become unstable: try a shorter step or a softer penalty"));
@@ -227,7 +229,7 @@ void Candidates<S, D, Ball>::select() {
   master_of.clear();
   for (const OuterRow& row : outer_rows_) {
     if (row.rest > S(0) || row.kept <= row.begin) continue;
-    rows.push_back({row.slave, row.side, row.seat, static_cast<Index>(master_of.size()), row.compression});
+    rows.push_back({row.slave, row.side, row.slot, static_cast<Index>(master_of.size()), row.compression});
     master_of.insert(master_of.end(), kept_master_.begin() + row.begin, kept_master_.begin() + row.kept);
   }
   rows.push_back({0, 0, 0, static_cast<Index>(master_of.size()), 0});
@@ -244,7 +246,7 @@ void Candidates<S, D, Ball>::transpose() {
   for (std::size_t i = 0; i < awake_of_.size(); ++i)
     if (awake_of_[i] != none) {
       awake_of_[i] = static_cast<Index>(awake.size());
-      awake.push_back({particle_[i], flags_[i], 0, 0});
+      awake.push_back({particle()[i], organs_.flags()[i], 0, 0});
     }
   awake.push_back({0, 0, 0, 0});
   for (std::size_t r = 0; r < row_count; ++r) ++awake[rows[r].slave = awake_of_[rows[r].slave]].rows;

@@ -17,7 +17,7 @@ S Candidates<S, D, Ball>::widest(const OuterRow& row) {
     const Index j = kept_master_[k];
     surface.reach(metric_[j], place_[j] - place_[row.slave], S(1) / (radius_ * radius_));
   }
-  Facing& facing = facing_[row.seat];
+  Facing& facing = facing_[row.slot];
   Point outward;
   if (!surface.normal(radius_, outward)) {
     facing.outward.setZero();
@@ -59,7 +59,7 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
     const S strain = S(1) + strain_[j], motion = bound_[row.slave] + bound_[j];
     const S furthest = strain * reach_[j] + travel_[row.slave] + travel_[j];
     if (compression_[j] < S(0) || !(apart.squaredNorm() <= furthest * furthest)) continue;
-    const Point drift = static_cast<S>(nap_) * (drift_[j] - drift_[row.slave]);
+    const Point drift = static_cast<S>(interval_) * (drift_[j] - drift_[row.slave]);
     const Point along = metric_[j] * drift;
     if (const S ahead = -apart.dot(along); ahead > S(0)) apart += std::min(S(1), ahead / drift.dot(along)) * drift;
     const S distance = std::sqrt(apart.dot(metric_[j] * apart)) / (strain * radius_);
@@ -82,7 +82,7 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
   };
   // What stretches and turns may do in any direction; only where that is too much, what they may do along the normal.
   const S stretch = (S(1) + strain_[row.slave]) * reach_[row.slave] / radius_;
-  Facing& facing = facing_[row.seat];
+  Facing& facing = facing_[row.slot];
   facing.late = false;
   if (rests(stretch * row.compression)) {
     facing.outward.setZero();
@@ -97,12 +97,12 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
 template <class S, int D, Metaball Ball>
 template <class X, class E>
 bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
-  const auto moved_squared = [&](std::size_t i) { return (place_of(x, particle_[i]) - expected(i)).squaredNorm(); };
+  const auto moved_squared = [&](std::size_t i) { return (place_of(x, particle()[i]) - expected(i)).squaredNorm(); };
   execute(watches_.size(), [&](std::size_t q) {
     Watch found{0, false, false};
-    for (std::size_t i = q * chunk; i < std::min(particle_.size(), (q + 1) * chunk); ++i)
+    for (std::size_t i = q * chunk; i < std::min(particle().size(), (q + 1) * chunk); ++i)
       if (const S moved = moved_squared(i); !(moved <= allowance_[i])) {
-        strayed_[q * chunk + found.strayed++] = static_cast<Index>(i);
+        exceeding_[q * chunk + found.exceeding++] = static_cast<Index>(i);
         found.far = found.far || !(moved <= bound_[i] * bound_[i]);
       }
     watches_[q] = found;
@@ -110,8 +110,8 @@ bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
   for (const Watch& found : watches_)
     if (found.far) return false;
   for (std::size_t q = 0; q < watches_.size(); ++q)
-    for (std::size_t k = q * chunk; k < q * chunk + watches_[q].strayed; ++k)
-      wake(strayed_[k], moved_squared(strayed_[k]));
+    for (std::size_t k = q * chunk; k < q * chunk + watches_[q].exceeding; ++k)
+      wake(exceeding_[k], moved_squared(exceeding_[k]));
   return true;
 }
 
@@ -125,7 +125,7 @@ void Candidates<S, D, Ball>::wake(Index particle, S moved_squared) {
     if (row.rest == S(0)) continue;
     if (rest_squared < moved_squared) {
       row.rest = 0;
-      woken_ += row.kept - row.begin;
+      newly_active_ += row.kept - row.begin;
     } else {
       allowance = std::min(allowance, rest_squared);
     }

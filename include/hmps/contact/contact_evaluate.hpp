@@ -24,7 +24,7 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   batch_rows_.resize(row_count);
   touching_.reserve(row_count);
   batches_.resize((row_count + batch - 1) / batch);
-  history_.resize(lists_.seats);
+  history_.resize(lists_.organs().slots());
 }
 
 /// F_j^-1 once per particle, many at a time.
@@ -103,7 +103,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
       row.compression, [&] { return F[slave].template cast<S>().eval(); },
       [&] { return v[slave].template cast<S>().eval(); }, state.normal, weight);
   const bool touches = contact.penetration > S(0);
-  const bool turned = touches && history_.turned_round(row.seat, contact.outward, contact.inside);
+  const bool turned = touches && history_.turned_round(row.slot, contact.outward, contact.inside);
   if (contact.lost || turned) depth = contact.depth;
   if (!touches) {
     if (state.penetration > S(0))  // in the call before
@@ -118,12 +118,12 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
 
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report, double time) const {
-  throw StateError(message("hmps: ", detail::is_nan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
-                           lists_.organs[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
-                           report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
-                           " spacings) deep in it or has passed through",
-                           report.deep > 1 ? message(", and ", report.deep - 1, " more") : "",
-                           "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
+  throw StateError(message(
+      "hmps: ", detail::is_nan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
+      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
+      report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
+      " spacings) deep in it or has passed through", report.deep > 1 ? message(", and ", report.deep - 1, " more") : "",
+      "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
 
 /// Evaluates all rows, lists those that touch, and reports what walls have lost.
@@ -156,7 +156,7 @@ void MetaballContact<S, D, Ball, Friction>::find(const X& x, const V& v, const G
     const auto& row = lists_.rows[batches_[q].deepest];
     report.lost_depth = batches_[q].depth;
     report.lost = lists_.awake[row.slave].particle;
-    report.lost_in = lists_.sides[row.side].masters;
+    report.lost_in = lists_.organs().sides()[row.side].masters;
   }
 }
 
@@ -168,7 +168,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
           " s; give a positive number");
   require_size(x, x.size(), "positions");
   require_size(v, x.size(), "velocities");
-  lists_.require_particles(x.size());
+  lists_.organs().require_particles(x.size());
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
   history_.next_call();

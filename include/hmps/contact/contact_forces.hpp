@@ -29,10 +29,10 @@ void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, double
     const double least = stiffness(p).at(settings_.density, dt) * dt * dt;  // of densities, at k~ = 1
     if constexpr (std::is_arithmetic_v<Rho>)
       if (static_cast<double>(rho) > least) continue;
-    for (const std::size_t o : {lists_.pairs[p].first, lists_.pairs[p].second})
-      lists_.for_each_movable(o, [&](Index i) {
+    for (const std::size_t o : {lists_.organs().pairs()[p].first, lists_.organs().pairs()[p].second})
+      lists_.organs().for_each_movable(o, [&](Index i) {
         const double own = static_cast<double>(at_particle(rho, i));
-        require(own > least, "hmps: particle ", i, " of '", lists_.organs[o].name, "' has the density ", own,
+        require(own > least, "hmps: particle ", i, " of '", lists_.organs().organs()[o].name, "' has the density ", own,
                 " kg/m3, which makes its penalty ratio k~ = k dt^2 / rho = ", least / own,
                 "; it must be below 1, but the contact was set for ", settings_.density,
                 " kg/m3: set `ContactSettings::density` to that of the lightest body, or give its pair a softer "
@@ -59,7 +59,7 @@ void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
     S load = 0;
-    if (!(own.flags & Lists::is_prescribed)) {
+    if (!(own.flags & detail::is_prescribed)) {
       for (std::size_t q = own.rows; q < next.rows; ++q)
         load += static_cast<S>(state_[lists_.slave_rows[q]].penetration > S(0));
       for (std::size_t e = own.entries; e < next.entries; ++e) load += entry_weight_[e];
@@ -83,7 +83,7 @@ std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& exec
     for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
       const Index r = touching_[c];
       const RowState& state = state_[r];
-      const PairLaw& law = laws_[lists_.sides[lists_.rows[r].side].pair];
+      const PairLaw& law = laws_[lists_.organs().sides()[lists_.rows[r].side].pair];
       S load = 0;
       if (needs_load) {
         // The first of four numbers: a sum of single products would be taken several at a time, rounded in another way

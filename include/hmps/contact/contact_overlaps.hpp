@@ -11,11 +11,11 @@ template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class G>
 std::vector<Overlap> MetaballContact<S, D, Ball, Friction>::find_overlaps(const X& x, const G& F) const {
   require_size(x, x.size(), "positions");
-  lists_.require_particles(x.size());
+  lists_.organs().require_particles(x.size());
   const NormalDensity<double, D, Ball> Z(settings_.spacing);
   const auto state_of = [&](std::size_t organ, std::uint8_t role, const auto& wanted) {
     detail::OverlapParticles<D> state;
-    for (const Index i : lists_.particles_of(organ, role)) {
+    for (const Index i : lists_.organs().particles_of(organ, role)) {
       if (!wanted(i)) continue;
       state.particle.push_back(i);
       state.x.push_back(x[i].template cast<double>());
@@ -26,13 +26,14 @@ std::vector<Overlap> MetaballContact<S, D, Ball, Friction>::find_overlaps(const 
     return state;
   };
   std::vector<Overlap> found;
-  for (const auto& side : lists_.sides) {
-    const auto& pair = lists_.pairs[side.pair];
+  for (const auto& side : lists_.organs().sides()) {
+    const auto& pair = lists_.organs().pairs()[side.pair];
     const auto all = [](Index) { return true; };
-    const auto slaves = state_of(side.slaves, Lists::is_slave, [&](Index i) { return Lists::may_be_slave(pair, i); });
-    Overlap overlap{side.pair, lists_.organs[side.slaves].name, lists_.organs[side.masters].name, 0, 0, 0};
-    detail::find_overlap<D, Ball>(Z, slaves, state_of(side.masters, Lists::is_master, all),
-                                  state_of(side.masters, Lists::is_slave, all), pair.excluded, overlap);
+    const auto slaves = state_of(side.slaves, detail::is_slave, [&](Index i) { return pair.may_be_slave(i); });
+    Overlap overlap{
+        side.pair, lists_.organs().organs()[side.slaves].name, lists_.organs().organs()[side.masters].name, 0, 0, 0};
+    detail::find_overlap<D, Ball>(Z, slaves, state_of(side.masters, detail::is_master, all),
+                                  state_of(side.masters, detail::is_slave, all), pair.excluded, overlap);
     if (overlap.count > 0) found.push_back(overlap);
   }
   return found;

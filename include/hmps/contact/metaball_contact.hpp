@@ -128,13 +128,13 @@ class MetaballContact {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
     require_size(F, x.size(), "deformation gradients");
     require_positive(rho, x.size(), "density", "kg/m3");
-    lists_.require_particles(x.size());
+    lists_.organs().require_particles(x.size());
     require_heavy(rho, dt);
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts == 0) return report;
     hand_out(
         [&](const typename Lists::Awake& own, const Point& force) {
-          if (own.flags & Lists::is_prescribed) return;
+          if (own.flags & detail::is_prescribed) return;
           const Index i = own.particle;
           for (int c = 0; c < D; ++c) detail::kick(v(i, c), force[c], at_particle(rho, i), dt);
         },
@@ -150,12 +150,9 @@ class MetaballContact {
     if (report.deep > 0) fail(report, time);
   }
 
-  /// Where organs reach into each other in the state `x` (m), `F`: ask before a run, since bodies that overlap at its
-  /// start are flung apart, or not seen at all where they lie deeper than metaballs reach. One entry for each pair and
-  /// role that has slaves in a wall. Depths are exact near the surface; from one spacing behind the slaves of the
-  /// wall's organ on they are judged by these, which have to form its surface: up to four spacings, and good to about
-  /// half a spacing. What lies behind a thin wall whose far side has no slaves counts as inside; of organs without
-  /// slaves only the metaballs tell. Costs as much as making all lists. Throws as the evaluation does.
+  /// Where organs reach into each other in the state `x` (m), `F`: see `Overlap`. Ask before a run, since bodies that
+  /// overlap at its start are flung apart, or not seen where they lie deeper than metaballs reach. One entry for each
+  /// pair and role that has slaves in a wall. Costs as much as making all lists. Throws as the evaluation does.
   template <class X, class M>
   [[nodiscard]] std::vector<Overlap> overlaps(const VectorView<X, D>& x, const MatrixView<M, D>& F) const {
     require_size(F, x.size(), "deformation gradients");
@@ -172,10 +169,10 @@ class MetaballContact {
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const Index r : touching_) {
-      const auto& side = lists_.sides[lists_.rows[r].side];
+      const auto& side = lists_.organs().sides()[lists_.rows[r].side];
       if (side.pair != pair) continue;
       const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
-      sum += side.slaves == lists_.pairs[pair].first ? force : -force;
+      sum += side.slaves == lists_.organs().pairs()[pair].first ? force : -force;
     }
     return sum * std::pow(settings_.spacing, D);
   }

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hmps/contact/organ.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps::inline HMPS_ABI::detail {
+
+/// What a particle is in an organ, as bits.
+enum : std::uint8_t { is_slave = 1, is_master = 2, is_prescribed = 4 };
+/// In place of the number of a particle.
+inline constexpr Index no_particle = std::numeric_limits<Index>::max();
+
+/// The organs of a scene and which of them may touch: what is declared once, without any state.
+///
+/// A member is a particle in one organ; organ after organ, and sorted by particle in each. All particles that are
+/// members are numbered once, in the order of their indices. A side is an ordered pair of organs: the slaves of one at
+/// the wall of the other.
+class OrganPairs {
+ public:
+  struct OrganRange {
+    std::string name;
+    std::size_t begin, end;  // of members
+  };
+  struct Pair {
+    std::size_t first, second;
+    std::vector<Index> excluded_slaves;  // ascending
+    std::function<bool(Index, Index)> excluded;
+    [[nodiscard]] bool may_be_slave(Index particle) const {
+      return !std::binary_search(excluded_slaves.begin(), excluded_slaves.end(), particle);
+    }
+  };
+  struct Side {
+    std::size_t slaves, masters;  // organs
+    std::size_t pair;
+    std::size_t first_slot;  // its slaves have a slot each, for what is to be remembered of them from call to call
+  };
+  struct Member {
+    Index particle, number;
+    std::uint8_t flags;
+  };
+
+  /// Returns the number of the organ. Throws `InputError` if it is empty.
+  std::size_t add_organ(const Organ& organ);
+  /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
+  std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
+  /// Numbers the particles: to be called after the last organ was added.
+  void number_particles();
+
+  [[nodiscard]] const std::vector<OrganRange>& organs() const { return organs_; }
+  [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
+  [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
+  [[nodiscard]] const std::vector<Member>& members() const { return members_; }
+  /// The particle with each number, ascending, and what it is in any organ.
+  [[nodiscard]] const std::vector<Index>& particle() const { return particle_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& flags() const { return flags_; }
+  /// Number of slots of all sides.
+  [[nodiscard]] std::size_t slots() const { return slots_; }
+
+  /// Throws `InputError` unless views of `size` particles hold all that organs name.
+  void require_particles(std::size_t size) const {
+    require(size >= views_, "hmps: an organ names particle ", views_ - 1, " but the views hold ", size,
+            " particles; indices count from 0 over all particles");
+  }
+  /// The particles of organ `o` in `role`, ascending.
+  [[nodiscard]] std::vector<Index> particles_of(std::size_t o, std::uint8_t role) const {
+    std::vector<Index> particles;
+    for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
+      if (members_[m].flags & role) particles.push_back(members_[m].particle);
+    return particles;
+  }
+  /// Calls `visit(i)` for each particle of organ `o` that forces move.
+  template <class Visit>
+  void for_each_movable(std::size_t o, Visit&& visit) const {
+    for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
+      if (!(members_[m].flags & is_prescribed)) visit(members_[m].particle);
+  }
+
+ private:
+  void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
+  [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
+
+  std::vector<OrganRange> organs_;
+  std::vector<Pair> pairs_;
+  std::vector<Side> sides_;
+  std::vector<Member> members_;
+  std::vector<Index> particle_;
+  std::vector<std::uint8_t> flags_;
+  std::size_t slots_ = 0, views_ = 0;
+};
+
+inline std::size_t OrganPairs::add_organ(const Organ& organ) {
+  require(!organ.slaves.empty() || !organ.masters.empty(), "hmps: organ '", organ.name,
+          "' has neither slaves nor masters; give the indices of its surface particles");
+  std::vector<std::pair<Index, std::uint8_t>> all;
+  for (const Index i : organ.slaves) all.emplace_back(i, is_slave);
+  for (const Index i : organ.masters) all.emplace_back(i, is_master);
+  std::sort(all.begin(), all.end());
+  require(all.back().first != no_particle, "hmps: organ '", organ.name, "' names particle ", no_particle,
+          ", which is no index");
+  const std::size_t begin = members_.size();
+  for (const auto& [i, role] : all) {
+    if (members_.size() == begin || members_.back().particle != i) {
+      const bool prescribed = organ.prescribed && organ.prescribed(i);
+      members_.push_back({i, no_particle, static_cast<std::uint8_t>(prescribed ? is_prescribed : 0)});
+    }
+    members_.back().flags = static_cast<std::uint8_t>(members_.back().flags | role);
+  }
+  views_ = std::max(views_, static_cast<std::size_t>(members_.back().particle) + 1);
+  organs_.push_back({organ.name, begin, members_.size()});
+  return organs_.size() - 1;
+}
+
+inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
+  for (const std::size_t o : {a, b})
+    require(o < organs_.size(), "hmps: organ ", o, " of a contact pair does not exist; only ", organs_.size(),
+            " organs were added, numbered from 0");
+  require(a != b, "hmps: organ '", organs_[a].name, "' is paired with itself; contact is between different organs_");
+  for (std::size_t m = organs_[a].begin, k = organs_[b].begin; m < organs_[a].end && k < organs_[b].end;) {
+    require(members_[m].particle != members_[k].particle, "hmps: particle ", members_[m].particle, " is in both '",
+            organs_[a].name, "' and '", organs_[b].name, "'; a pair needs organs without common particles");
+    members_[m].particle < members_[k].particle ? ++m : ++k;
+  }
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    require(!(pairs_[p].first == a && pairs_[p].second == b) && !(pairs_[p].first == b && pairs_[p].second == a),
+            "hmps: organs '", organs_[a].name, "' and '", organs_[b].name, "' already are contact pair ", p,
+            "; declare a pair once (the order does not matter), or its forces count twice");
+  std::vector<Index> excluded(settings.excluded_slaves.begin(), settings.excluded_slaves.end());
+  std::sort(excluded.begin(), excluded.end());
+  const Pair pair{a, b, std::move(excluded), settings.excluded};
+  const bool first = settings.roles != Roles::only_second_is_slave,
+             second = settings.roles != Roles::only_first_is_slave;
+  if (first) check_side(a, b, pair);
+  if (second) check_side(b, a, pair);
+  pairs_.push_back(pair);
+  const auto add_side = [&](std::size_t slaves, std::size_t masters) {
+    sides_.push_back({slaves, masters, pairs_.size() - 1, slots_});
+    slots_ += organs_[slaves].end - organs_[slaves].begin;
+  };
+  if (first) add_side(a, b);
+  if (second) add_side(b, a);
+  return pairs_.size() - 1;
+}
+
+/// Throws `InputError` unless `slaves` has slaves and `masters` masters, and if another side has a slave and a master
+/// of this one too: each would push the other twice.
+inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const {
+  const auto any = [&](std::size_t o, std::uint8_t role) {
+    for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
+      if (members_[m].flags & role) return true;
+    return false;
+  };
+  require(any(slaves, is_slave), "hmps: organ '", organs_[slaves].name, "' has no slaves but is to touch '",
+          organs_[masters].name, "'; give it slaves, or let only the other be slave");
+  require(any(masters, is_master), "hmps: organ '", organs_[masters].name, "' has no masters but is to be touched by '",
+          organs_[slaves].name, "'; give it masters, or let only it be slave");
+  for (const Side& side : sides_) {
+    const Pair& other = pairs_[side.pair];
+    std::vector<Index> common_slaves = common(slaves, side.slaves, is_slave);
+    std::erase_if(common_slaves, [&](Index i) { return !pair.may_be_slave(i) || !other.may_be_slave(i); });
+    if (common_slaves.empty()) continue;
+    const std::vector<Index> common_masters = common(masters, side.masters, is_master);
+    for (const Index i : common_slaves)
+      for (const Index j : common_masters)
+        require((pair.excluded && pair.excluded(i, j)) || (other.excluded && other.excluded(i, j)), "hmps: slave ", i,
+                " would be pushed by master ", j, " twice: in the pair of '", organs_[slaves].name, "' and '",
+                organs_[masters].name, "', and in that of '", organs_[side.slaves].name, "' and '",
+                organs_[side.masters].name, "'; declare each body once, or exclude the slave from one of the pairs");
+  }
+}
+
+/// The particles that organs `a` and `b` both have in `role`, ascending.
+inline std::vector<Index> OrganPairs::common(std::size_t a, std::size_t b, std::uint8_t role) const {
+  std::vector<Index> particles;
+  for (std::size_t m = organs_[a].begin, k = organs_[b].begin; m < organs_[a].end && k < organs_[b].end;) {
+    const Member &one = members_[m], &other = members_[k];
+    if (one.particle == other.particle && (one.flags & other.flags & role)) particles.push_back(one.particle);
+    m += one.particle <= other.particle;
+    k += other.particle <= one.particle;
+  }
+  return particles;
+}
+
+inline void OrganPairs::number_particles() {
+  particle_.clear();
+  for (const Member& member : members_) particle_.push_back(member.particle);
+  std::sort(particle_.begin(), particle_.end());
+  particle_.erase(std::unique(particle_.begin(), particle_.end()), particle_.end());
+  flags_.assign(particle_.size(), 0);
+  for (Member& member : members_) {
+    const auto found = std::lower_bound(particle_.begin(), particle_.end(), member.particle);
+    member.number = static_cast<Index>(found - particle_.begin());
+    flags_[member.number] = static_cast<std::uint8_t>(flags_[member.number] | member.flags);
+  }
+}
+
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/contact/lists/organ_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace {
+
+using hmps::Index;
+using hmps::detail::is_master;
+using hmps::detail::is_prescribed;
+using hmps::detail::is_slave;
+using hmps::detail::OrganPairs;
+using List = std::vector<Index>;
+
+TEST(OrganPairs, NumberEachParticleOnceInTheOrderOfIndices) {
+  const List slaves{9, 3, 3}, masters{3, 5}, others{5, 7};
+  OrganPairs pairs;
+  const auto a = pairs.add_organ({.name = "a", .slaves = slaves, .masters = masters});
+  const auto b = pairs.add_organ({.name = "b", .masters = others, .prescribed = [](Index i) { return i == 7; }});
+  pairs.number_particles();
+  EXPECT_EQ(pairs.particle(), (List{3, 5, 7, 9}));
+  EXPECT_EQ(pairs.flags(),
+            (std::vector<std::uint8_t>{is_slave | is_master, is_master, is_master | is_prescribed, is_slave}));
+  EXPECT_EQ(pairs.particles_of(a, is_slave), (List{3, 9})) << "one that is listed twice counts once";
+  EXPECT_EQ(pairs.particles_of(a, is_master), (List{3, 5}));
+  for (const auto& member : pairs.members()) EXPECT_EQ(pairs.particle()[member.number], member.particle);
+  List movable;
+  pairs.for_each_movable(b, [&](Index i) { movable.push_back(i); });
+  EXPECT_EQ(movable, List{5});
+  EXPECT_THROW(pairs.require_particles(9), hmps::InputError);
+  EXPECT_NO_THROW(pairs.require_particles(10));
+}
+
+TEST(OrganPairs, HaveASideForEachRoleAndASlotForEachMemberOfItsSlaves) {
+  const List one{1, 2}, other{3, 4, 5};
+  OrganPairs pairs;
+  const auto a = pairs.add_organ({.name = "a", .slaves = one, .masters = one});
+  const auto b = pairs.add_organ({.name = "b", .slaves = other, .masters = other});
+  const List out{4};
+  EXPECT_EQ(pairs.add_pair(a, b, {.excluded_slaves = out}), 0U);
+  ASSERT_EQ(pairs.sides().size(), 2U);
+  EXPECT_EQ(pairs.sides()[0].slaves, a);
+  EXPECT_EQ(pairs.sides()[1].slaves, b);
+  EXPECT_EQ(pairs.sides()[1].first_slot, 2U);
+  EXPECT_EQ(pairs.slots(), 5U);
+  EXPECT_FALSE(pairs.pairs()[0].may_be_slave(4));
+  EXPECT_TRUE(pairs.pairs()[0].may_be_slave(5));
+}
+
+TEST(OrganPairs, RefuseWhatWouldCountTwice) {
+  const List one{1, 2}, other{3, 4}, third{5, 6};
+  OrganPairs pairs;
+  const auto add = [&](const List& list) { return pairs.add_organ({.name = "x", .slaves = list, .masters = list}); };
+  const auto a = add(one), b = add(other), c = add(third), again = add(other);
+  pairs.add_pair(a, b, {});
+  EXPECT_THROW(pairs.add_pair(a, b, {}), hmps::InputError);
+  EXPECT_THROW(pairs.add_pair(b, a, {}), hmps::InputError);
+  EXPECT_THROW(pairs.add_pair(a, again, {}), hmps::InputError);
+  EXPECT_NO_THROW(pairs.add_pair(a, c, {})) << "slaves shared, but no masters";
+  EXPECT_NO_THROW(pairs.add_pair(again, c, {})) << "the same with masters shared";
+  EXPECT_EQ(pairs.pairs().size(), 3U);
+  EXPECT_EQ(pairs.sides().size(), 6U);
+}
+
+TEST(OrganPairs, RefuseWhatIsNoOrganOrNoIndex) {
+  OrganPairs pairs;
+  const List some{1}, none{hmps::detail::no_particle};
+  EXPECT_THROW(pairs.add_organ({.name = "empty"}), hmps::InputError);
+  EXPECT_THROW(pairs.add_organ({.name = "none", .slaves = none}), hmps::InputError);
+  const auto a = pairs.add_organ({.name = "a", .slaves = some});
+  EXPECT_THROW(pairs.add_pair(a, a, {}), hmps::InputError);
+  EXPECT_THROW(pairs.add_pair(a, 7, {}), hmps::InputError);
+}
+
+}  // namespace
