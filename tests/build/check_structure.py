@@ -16,7 +16,7 @@ MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 # What is longer today, and by how much at most: to be divided, not to be added to.
 LONGER = {"hmps/lanes/lanes.hpp": 366, "hmps/force/internal_force.hpp": 346}
-LONGER_FUNCTIONS = {"hmps/contact/candidates_build.hpp": 69}
+LONGER_FUNCTIONS = {}
 
 INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)
 # What opens a block that is no function.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "hmps/contact/candidates_build.hpp"
-#include "hmps/contact/candidates_select.hpp"
-#include "hmps/contact/candidates_sleep.hpp"
 #include "hmps/contact/contact_forces.hpp"
+#include "hmps/contact/lists/candidates_check.hpp"
+#include "hmps/contact/lists/candidates_sleep.hpp"
 #include "hmps/contact/metaball_contact.hpp"
 #include "hmps/core/abi.hpp"
 
@@ -13,12 +12,12 @@ namespace hmps::inline HMPS_ABI {
 /// Makes room for what the present lists name.
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 void MetaballContact<S, D, Ball, Friction>::resize() {
-  const std::size_t row_count = lists_.rows.size() - 1, awake_count = lists_.awake.size() - 1;
+  const std::size_t row_count = lists_.active().rows().size() - 1, awake_count = lists_.active().awake().size() - 1;
   masters_.resize(awake_count);
   moving_.resize(awake_count);
   load_.resize(awake_count);
-  weight_.resize(lists_.master_of.size());
-  entry_weight_.assign(lists_.master_of.size(), S(0));
+  weight_.resize(lists_.active().master_of().size());
+  entry_weight_.assign(lists_.active().master_of().size(), S(0));
   state_.assign(row_count, RowState{});
   force_.resize(row_count);
   batch_rows_.resize(row_count);
@@ -33,15 +32,15 @@ template <class X, class V, class G, class E>
 void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(gather_batch % width == 0);
-  suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, Lists::none);
+  suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, detail::no_particle);
   execute(suspect_.size(), [&](std::size_t q) {
     const std::size_t end = std::min(masters_.size(), (q + 1) * gather_batch);
     for (std::size_t begin = q * gather_batch; begin < end; begin += width) {
       const auto B = inverse<Lanes<S>, D>(detail::gather_gradients<S, D>(
-          F, [&](std::size_t l) { return lists_.awake[std::min(begin + l, end - 1)].particle; }));
+          F, [&](std::size_t l) { return lists_.active().awake()[std::min(begin + l, end - 1)].particle; }));
       const auto A = right_cauchy_green<Lanes<S>, D>(B);
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
-        const Index j = lists_.awake[begin + l].particle;
+        const Index j = lists_.active().awake()[begin + l].particle;
         auto& master = masters_[begin + l];
         auto& moving = moving_[begin + l];
         const Point place = lists_.place_of(x, j), velocity = v[j].template cast<S>();
@@ -75,9 +74,9 @@ template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G>
 void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& v, const G& F) const {
   for (std::size_t q = 0; q < suspect_.size(); ++q) {
-    if (suspect_[q] == Lists::none) continue;
+    if (suspect_[q] == detail::no_particle) continue;
     for (std::size_t t = suspect_[q]; t < std::min(masters_.size(), (q + 1) * gather_batch); ++t) {
-      const Index i = lists_.awake[t].particle;
+      const Index i = lists_.active().awake()[t].particle;
       detail::require_motion<D>(x[i].template cast<double>(), v[i].template cast<double>(), i);
       detail::require_gradient<D>(F[i].template cast<double>(), i);
     }
@@ -89,19 +88,20 @@ void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& 
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G>
 bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
-  const auto& row = lists_.rows[r];
-  const std::size_t begin = row.begin, size = lists_.rows[r + 1].begin - begin;
-  const Index slave = lists_.awake[row.slave].particle;
+  const auto& row = lists_.active().rows()[r];
+  const std::size_t begin = row.begin, size = lists_.active().rows()[r + 1].begin - begin;
+  const Index slave = lists_.active().awake()[row.slave].particle;
   S *weight = weight_.data() + begin, *entry_weight = entry_weight_.data();
-  const Index* entry = lists_.entry_of.data() + begin;
+  const Index* entry = lists_.active().entry_of().data() + begin;
   RowState& state = state_[r];
   Quad place;
   detail::spread<S>(lists_.place_of(x, slave), place);
 
   const detail::SlaveContact<S, D> contact = detail::slave_contact<S, D, Ball>(
-      lists_.normal_density, place, {masters_.data(), moving_.data(), lists_.master_of.data() + begin, size},
-      row.compression, [&] { return F[slave].template cast<S>().eval(); },
-      [&] { return v[slave].template cast<S>().eval(); }, state.normal, weight);
+      lists_.normal_density(), place,
+      {masters_.data(), moving_.data(), lists_.active().master_of().data() + begin, size}, row.compression,
+      [&] { return F[slave].template cast<S>().eval(); }, [&] { return v[slave].template cast<S>().eval(); },
+      state.normal, weight);
   const bool touches = contact.penetration > S(0);
   const bool turned = touches && history_.turned_round(row.slot, contact.outward, contact.inside);
   if (contact.lost || turned) depth = contact.depth;
@@ -131,7 +131,7 @@ template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class X, class V, class G, class E>
 void MetaballContact<S, D, Ball, Friction>::find(const X& x, const V& v, const G& F, ContactReport<S>& report,
                                                  const E& execute) {
-  const std::size_t row_count = lists_.rows.size() - 1, count = (row_count + batch - 1) / batch;
+  const std::size_t row_count = lists_.active().rows().size() - 1, count = (row_count + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
     Batch result;
     for (std::size_t r = q * batch; r < std::min(row_count, (q + 1) * batch); ++r) {
@@ -153,9 +153,9 @@ void MetaballContact<S, D, Ball, Friction>::find(const X& x, const V& v, const G
     touching_.insert(touching_.end(), first, first + static_cast<std::ptrdiff_t>(batches_[q].count));
     report.deep += batches_[q].deep;
     if (!(batches_[q].depth > report.lost_depth)) continue;
-    const auto& row = lists_.rows[batches_[q].deepest];
+    const auto& row = lists_.active().rows()[batches_[q].deepest];
     report.lost_depth = batches_[q].depth;
-    report.lost = lists_.awake[row.slave].particle;
+    report.lost = lists_.active().awake()[row.slave].particle;
     report.lost_in = lists_.organs().sides()[row.side].masters;
   }
 }
@@ -172,11 +172,11 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
   history_.next_call();
-  const std::size_t row_count = lists_.rows.size() - 1;
+  const std::size_t row_count = lists_.active().rows().size() - 1;
   ContactReport<S> report;
-  report.candidates = lists_.master_of.size();
-  report.rebuilds = lists_.rebuilds;
-  report.late = lists_.late;
+  report.candidates = lists_.active().master_of().size();
+  report.rebuilds = lists_.rebuilds();
+  report.late = lists_.late();
   touching_.clear();
   if (row_count == 0) return report;
 
@@ -189,7 +189,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
   for (const Index r : touching_)
     if (state_[r].penetration > report.penetration) {
       report.penetration = state_[r].penetration;
-      report.deepest = lists_.awake[lists_.rows[r].slave].particle;
+      report.deepest = lists_.active().awake()[lists_.active().rows()[r].slave].particle;
     }
   return report;
 }

@@ -57,11 +57,11 @@ template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class E>
 void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
   execute(load_.size(), [&](std::size_t t) {
-    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
+    const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     S load = 0;
     if (!(own.flags & detail::is_prescribed)) {
       for (std::size_t q = own.rows; q < next.rows; ++q)
-        load += static_cast<S>(state_[lists_.slave_rows[q]].penetration > S(0));
+        load += static_cast<S>(state_[lists_.active().slave_rows()[q]].penetration > S(0));
       for (std::size_t e = own.entries; e < next.entries; ++e) load += entry_weight_[e];
     }
     load_[t] = load;
@@ -83,15 +83,15 @@ std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& exec
     for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
       const Index r = touching_[c];
       const RowState& state = state_[r];
-      const PairLaw& law = laws_[lists_.organs().sides()[lists_.rows[r].side].pair];
+      const PairLaw& law = laws_[lists_.organs().sides()[lists_.active().rows()[r].side].pair];
       S load = 0;
       if (needs_load) {
         // The first of four numbers: a sum of single products would be taken several at a time, rounded in another way
         // than the rest that is left over, and so depend on how many candidates without weight lie between.
         Quad of_masters{};
-        for (std::size_t e = lists_.rows[r].begin; e < lists_.rows[r + 1].begin; ++e)
-          of_masters += Quad{load_[lists_.master_of[e]]} * weight_[e];
-        load = of_masters[0] + load_[lists_.rows[r].slave];
+        for (std::size_t e = lists_.active().rows()[r].begin; e < lists_.active().rows()[r + 1].begin; ++e)
+          of_masters += Quad{load_[lists_.active().master_of()[e]]} * weight_[e];
+        load = of_masters[0] + load_[lists_.active().rows()[r].slave];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       const S normal =
@@ -116,11 +116,12 @@ template <class S, int D, Metaball Ball, FrictionLaw Friction>
 template <class Take, class E>
 void MetaballContact<S, D, Ball, Friction>::hand_out(const Take& take, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
-    const auto &own = lists_.awake[t], &next = lists_.awake[t + 1];
+    const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     // Rows that do not touch have no force: adding it costs less than to ask.
     Quad force{};
-    for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.slave_rows[q]];
-    for (std::size_t e = own.entries; e < next.entries; ++e) force -= force_[lists_.entry_rows[e]] * entry_weight_[e];
+    for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.active().slave_rows()[q]];
+    for (std::size_t e = own.entries; e < next.entries; ++e)
+      force -= force_[lists_.active().entry_rows()[e]] * entry_weight_[e];
     take(own, Point(detail::first<D, S>(force)));
   });
 }

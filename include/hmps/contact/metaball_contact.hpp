@@ -10,9 +10,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "hmps/contact/candidates.hpp"
 #include "hmps/contact/contact_history.hpp"
 #include "hmps/contact/contact_settings.hpp"
+#include "hmps/contact/lists/candidates.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
@@ -133,7 +133,7 @@ class MetaballContact {
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts == 0) return report;
     hand_out(
-        [&](const typename Lists::Awake& own, const Point& force) {
+        [&](const typename detail::ActiveRows<S>::Awake& own, const Point& force) {
           if (own.flags & detail::is_prescribed) return;
           const Index i = own.particle;
           for (int c = 0; c < D; ++c) detail::kick(v(i, c), force[c], at_particle(rho, i), dt);
@@ -169,7 +169,7 @@ class MetaballContact {
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const Index r : touching_) {
-      const auto& side = lists_.organs().sides()[lists_.rows[r].side];
+      const auto& side = lists_.organs().sides()[lists_.active().rows()[r].side];
       if (side.pair != pair) continue;
       const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
       sum += side.slaves == lists_.organs().pairs()[pair].first ? force : -force;
@@ -204,7 +204,9 @@ class MetaballContact {
     require_apart(f, "contact forces", v, "velocities");
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts > 0)
-      hand_out([&](const typename Lists::Awake& own, const Point& force) { f.add(own.particle, force); }, execute);
+      hand_out(
+          [&](const typename detail::ActiveRows<S>::Awake& own, const Point& force) { f.add(own.particle, force); },
+          execute);
     return report;
   }
   /// The forces of all rows that touch, for `hand_out`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hmps/contact/candidates.hpp"
+#include "hmps/contact/lists/candidates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "bodies.hpp"
-#include "hmps/contact/candidates_build.hpp"
-#include "hmps/contact/candidates_select.hpp"
-#include "hmps/contact/candidates_sleep.hpp"
+#include "hmps/contact/bodies.hpp"
+#include "hmps/contact/lists/candidates_check.hpp"
+#include "hmps/contact/lists/candidates_sleep.hpp"
 #include "hmps/core/executor.hpp"
 
 namespace {
@@ -52,9 +51,10 @@ std::size_t declare(L& lists, const Pile& pile, const hmps::PairSettings& settin
 template <class L>
 Pairs listed(const L& lists) {
   Pairs pairs;
-  for (std::size_t r = 0; r + 1 < lists.rows.size(); ++r)
-    for (Index k = lists.rows[r].begin; k < lists.rows[r + 1].begin; ++k)
-      pairs.emplace_back(lists.awake[lists.rows[r].slave].particle, lists.awake[lists.master_of[k]].particle);
+  for (std::size_t r = 0; r + 1 < lists.active().rows().size(); ++r)
+    for (Index k = lists.active().rows()[r].begin; k < lists.active().rows()[r + 1].begin; ++k)
+      pairs.emplace_back(lists.active().awake()[lists.active().rows()[r].slave].particle,
+                         lists.active().awake()[lists.active().master_of()[k]].particle);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -107,9 +107,9 @@ TEST(Candidates, NeverMissATouchWhileBodiesMove) {
   }
   EXPECT_GT(met, 10000U) << "the bodies were meant to meet";
   EXPECT_GT(slept, 50U) << "most steps are meant to reuse the lists";
-  EXPECT_EQ(lists.late, 0U);
-  EXPECT_LT(lists.checks, 800U);
-  EXPECT_LT(lists.rebuilds, 100U);
+  EXPECT_EQ(lists.late(), 0U);
+  EXPECT_LT(lists.checks(), 800U);
+  EXPECT_LT(lists.rebuilds(), 100U);
 }
 
 /// Rows that are awake, on average, while both bodies move along at 0.5 m/s.
@@ -121,9 +121,9 @@ double awake_rows(Pile pile) {
   for (int step = 0; step < steps; ++step) {
     for (auto& x : pile.x) x[0] += 0.5 * 1e-5;
     lists.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{});
-    if (step >= steps / 2) rows += static_cast<double>(lists.rows.size() - 1) / (steps - steps / 2);
+    if (step >= steps / 2) rows += static_cast<double>(lists.active().rows().size() - 1) / (steps - steps / 2);
   }
-  EXPECT_EQ(lists.late, 0U);
+  EXPECT_EQ(lists.late(), 0U);
   return rows;
 }
 
@@ -147,30 +147,31 @@ TEST(Candidates, AreOrderedAndTransposedConsistently) {
   Lists lists(1e-3, 0.5e-3);
   declare(lists, pile);
   lists.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{});
-  ASSERT_GT(lists.rows.size(), 10U);
-  for (std::size_t r = 0; r + 1 < lists.rows.size(); ++r)
-    for (Index k = lists.rows[r].begin + 1; k < lists.rows[r + 1].begin; ++k)
-      EXPECT_LT(lists.master_of[k - 1], lists.master_of[k]);
+  ASSERT_GT(lists.active().rows().size(), 10U);
+  for (std::size_t r = 0; r + 1 < lists.active().rows().size(); ++r)
+    for (Index k = lists.active().rows()[r].begin + 1; k < lists.active().rows()[r + 1].begin; ++k)
+      EXPECT_LT(lists.active().master_of()[k - 1], lists.active().master_of()[k]);
   std::size_t entries = 0, rows = 0;
-  for (std::size_t t = 0; t + 1 < lists.awake.size(); ++t) {
+  for (std::size_t t = 0; t + 1 < lists.active().awake().size(); ++t) {
     if (t > 0) {
-      EXPECT_LT(lists.awake[t - 1].particle, lists.awake[t].particle);
+      EXPECT_LT(lists.active().awake()[t - 1].particle, lists.active().awake()[t].particle);
     }
-    for (Index e = lists.awake[t].entries; e < lists.awake[t + 1].entries; ++e, ++entries) {
-      const auto& row = lists.rows[lists.entry_rows[e]];
-      const Index end = lists.rows[lists.entry_rows[e] + 1].begin;
+    for (Index e = lists.active().awake()[t].entries; e < lists.active().awake()[t + 1].entries; ++e, ++entries) {
+      const auto& row = lists.active().rows()[lists.active().entry_rows()[e]];
+      const Index end = lists.active().rows()[lists.active().entry_rows()[e] + 1].begin;
       std::size_t same = 0;
-      for (Index k = row.begin; k < end; ++k) same += lists.entry_of[k] == e && lists.master_of[k] == t;
+      for (Index k = row.begin; k < end; ++k)
+        same += lists.active().entry_of()[k] == e && lists.active().master_of()[k] == t;
       EXPECT_EQ(same, 1U);
-      if (e > lists.awake[t].entries) {
-        EXPECT_LT(lists.entry_rows[e - 1], lists.entry_rows[e]);
+      if (e > lists.active().awake()[t].entries) {
+        EXPECT_LT(lists.active().entry_rows()[e - 1], lists.active().entry_rows()[e]);
       }
     }
-    for (Index q = lists.awake[t].rows; q < lists.awake[t + 1].rows; ++q, ++rows)
-      EXPECT_EQ(lists.rows[lists.slave_rows[q]].slave, t);
+    for (Index q = lists.active().awake()[t].rows; q < lists.active().awake()[t + 1].rows; ++q, ++rows)
+      EXPECT_EQ(lists.active().rows()[lists.active().slave_rows()[q]].slave, t);
   }
-  EXPECT_EQ(entries, lists.master_of.size());
-  EXPECT_EQ(rows, lists.rows.size() - 1);
+  EXPECT_EQ(entries, lists.active().master_of().size());
+  EXPECT_EQ(rows, lists.active().rows().size() - 1);
 }
 
 TEST(Candidates, FollowTheStretchOfTheMaster) {

@@ -1,10 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "hmps/contact/candidates.hpp"
+#include "hmps/contact/lists/candidates.hpp"
 #include "hmps/core/abi.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
+
+/// Numbers the particles of all organs once each, and cuts the members into chunks.
+template <class S, int D, Metaball Ball>
+void Candidates<S, D, Ball>::number() {
+  organs_.number_particles();
+  const std::size_t count = particle().size();
+  place_.assign(count, Point::Zero());
+  drift_.assign(count, Point::Zero());
+  metric_.assign(count, Matrix<S, D>::Identity());
+  reach_.assign(count, S(0));
+  compression_.assign(count, S(-1));
+  bound_.assign(count, S(0));
+  travel_.assign(count, S(0));
+  strain_.assign(count, S(0));
+  allowance_.assign(count, S(0));
+  exceeding_.resize(count);
+  watches_.resize((count + chunk - 1) / chunk);
+  const auto& organs = organs_.organs();
+  motion_.assign(organs.size(), OrganMotion{Point::Zero(), 0, 0});
+  for (std::size_t o = 0; o < organs.size(); ++o)
+    for (std::size_t m = organs[o].begin; m < organs[o].end; m += chunk)
+      parts_.push_back({o, m, std::min(m + chunk, organs[o].end), 0, 0, Point::Zero()});
+}
+
+/// Builds the broad-phase list from the places and reaches of the latest check.
+template <class S, int D, Metaball Ball>
+template <class E>
+void Candidates<S, D, Ball>::build(const E& execute) {
+  built_place_ = place_;
+  built_reach_ = reach_;
+  motion_.assign(motion_.size(), OrganMotion{Point::Zero(), 0, 0});
+  broad_.build({organs_, place_, reach_, compression_, radius_, margin_},
+               [&](std::size_t n, const std::function<void(std::size_t)>& body) { execute(n, body); });
+  kept_master_.resize(broad_.masters().size());
+  built_ = true;
+  ++rebuilds_;
+}
 
 template <class S, int D, Metaball Ball>
 template <class X, class Gradients, class E>
@@ -29,21 +66,20 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
   }
   if (!built_) facing_.assign(organs_.slots(), {Point::Zero(), first_turn, false, false});
   // Sharper lists are worth about a tenth of what is spent on evaluating them.
-  interval_ =
-      std::clamp<std::size_t>(8 * cost_of_check() / (master_of.size() + 1), shortest_interval, longest_interval);
+  interval_ = std::clamp<std::size_t>(8 * cost_of_check() / (active_.master_of().size() + 1), shortest_interval,
+                                      longest_interval);
   bool is_late = measure(x, F, execute);
   measure_organs(execute);
-  ++checks;
-  limit_.resize(sides().size());
-  for (std::size_t s = 0; s < limit_.size(); ++s)
-    if (!(used(s) + S(0.4) * margin_ < limit_[s])) built_ = false;
+  ++checks_;
+  for (std::size_t s = 0; built_ && s < sides().size(); ++s)
+    if (!(used(s) + S(0.4) * margin_ < broad_.limit(s))) built_ = false;
   if (!built_) {
     choose_origin(x);
     build(execute);
   }
   // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();
-  for (std::size_t s = 0; s < limit_.size(); ++s) most = std::min(most, S(0.4) * (limit_[s] - used(s)));
+  for (std::size_t s = 0; s < sides().size(); ++s) most = std::min(most, S(0.4) * (broad_.limit(s) - used(s)));
   const S most_drift = S(0.5) * most;
   S fastest = 0;
   for (const Point& drift : drift_) fastest = std::max(fastest, drift.norm());
@@ -56,13 +92,13 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
     travel_[i] = bound_[i] + std::min(drift, most_drift);
     allowance_[i] = bound_[i] * bound_[i];
   }
-  const std::size_t count = outer_rows_.size() - 1;
+  const std::size_t count = broad_.rows().size() - 1;
   constexpr std::size_t batch = 64;
   execute((count + batch - 1) / batch, [&](std::size_t q) {
     for (std::size_t r = q * batch; r < std::min(count, (q + 1) * batch); ++r) put_to_sleep(r);
   });
   for (std::size_t r = 0; r < count; ++r) {
-    const OuterRow& row = outer_rows_[r];
+    const Row& row = broad_.rows()[r];
     is_late = is_late || facing_[row.slot].late;
     if (!(row.rest > S(0) && row.rest < S(1))) continue;
     const auto limit = [&](Index i) {
@@ -72,12 +108,12 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
     limit(row.slave);
     for (Index k = row.begin; k < row.kept; ++k) limit(kept_master_[k]);
   }
-  late += is_late;
+  late_ += is_late;
   age_ = newly_active_ = active_work_ = 0;
   select();
 }
 
-/// How much of its limit a side has used up since the outer list was built.
+/// How much of its limit a side has used up since the broad-phase list was built.
 template <class S, int D, Metaball Ball>
 S Candidates<S, D, Ball>::used(std::size_t side) const {
   const OrganMotion &a = motion_[sides()[side].slaves], &b = motion_[sides()[side].masters];
@@ -105,7 +141,7 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
         const Point place = place_of(x, particle()[i]);
         bound_[i] = std::numeric_limits<S>::max();
         if (built_)
-          bound_[i] = least_motion * normal_density.spacing() + S(2) * longer() * (place - expected(i)).norm();
+          bound_[i] = least_motion * normal_density_.spacing() + S(2) * longer() * (place - expected(i)).norm();
         drift_[i].setZero();
         if (built_) drift_[i] = (place - place_[i]) / static_cast<S>(std::max<std::size_t>(age_, 1));
         place_[i] = place;
@@ -118,7 +154,8 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
           old = now;
         }
         change = S(0.5) * std::sqrt(change) * stretch.lane[l] * stretch.lane[l];
-        late_here = late_here || (built_ && rows_of_begin_[i] < rows_of_begin_[i + 1] && change > strain_[i]);
+        late_here =
+            late_here || (built_ && broad_.rows_of_begin(i) < broad_.rows_of_begin(i + 1) && change > strain_[i]);
         strain_[i] = built_ ? std::max({least_strain, S(4) * longer() * change, S(0.5) * strain_[i]}) : first_strain;
         const S reach = radius_ * stretch.lane[l];
         reach_[i] = reach;
@@ -144,7 +181,7 @@ template <class S, int D, Metaball Ball>
 template <class X>
 void Candidates<S, D, Ball>::choose_origin(const X& x) {
   if constexpr (sizeof(typename X::Scalar) > sizeof(S)) {
-    const double far = static_cast<double>(normal_density.spacing()) * 1.25e-4 /
+    const double far = static_cast<double>(normal_density_.spacing()) * 1.25e-4 /
                        static_cast<double>(std::numeric_limits<S>::epsilon());
     Point low = Point::Constant(std::numeric_limits<S>::max()), high = -low;
     for (const Point& place : place_) {
@@ -170,7 +207,7 @@ void Candidates<S, D, Ball>::check_flat(const Gradients& F) const {
   }
 }
 
-/// How far the organs have moved since the outer list was built.
+/// How far the organs have moved since the broad-phase list was built.
 template <class S, int D, Metaball Ball>
 template <class E>
 void Candidates<S, D, Ball>::measure_organs(const E& execute) {
@@ -222,49 +259,16 @@ void Candidates<S, D, Ball>::fail(const OrganPairs::OrganRange& organ) const {
                            "' to overflow; the run has become unstable: try a shorter step or a softer penalty"));
 }
 
-/// Makes the inner list of the rows that are awake.
+/// Makes the list of the rows that are awake.
 template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::select() {
-  rows.clear();
-  master_of.clear();
-  for (const OuterRow& row : outer_rows_) {
+  active_.clear();
+  for (const Row& row : broad_.rows()) {
     if (row.rest > S(0) || row.kept <= row.begin) continue;
-    rows.push_back({row.slave, row.side, row.slot, static_cast<Index>(master_of.size()), row.compression});
-    master_of.insert(master_of.end(), kept_master_.begin() + row.begin, kept_master_.begin() + row.kept);
+    active_.add(row.slave, row.side, row.slot, row.compression, kept_master_.data() + row.begin,
+                kept_master_.data() + row.kept);
   }
-  rows.push_back({0, 0, 0, static_cast<Index>(master_of.size()), 0});
-  transpose();
-}
-
-/// Numbers the awake particles and lists what refers to each.
-template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::transpose() {
-  const std::size_t row_count = rows.size() - 1;
-  for (std::size_t r = 0; r < row_count; ++r) awake_of_[rows[r].slave] = 0;
-  for (const Index j : master_of) awake_of_[j] = 0;
-  awake.clear();
-  for (std::size_t i = 0; i < awake_of_.size(); ++i)
-    if (awake_of_[i] != none) {
-      awake_of_[i] = static_cast<Index>(awake.size());
-      awake.push_back({particle()[i], organs_.flags()[i], 0, 0});
-    }
-  awake.push_back({0, 0, 0, 0});
-  for (std::size_t r = 0; r < row_count; ++r) ++awake[rows[r].slave = awake_of_[rows[r].slave]].rows;
-  for (Index& j : master_of) ++awake[j = awake_of_[j]].entries;
-  std::fill(awake_of_.begin(), awake_of_.end(), none);
-  // Ends first; filling backwards moves each on to its begin.
-  for (std::size_t t = 1; t < awake.size(); ++t) {
-    awake[t].rows += awake[t - 1].rows;
-    awake[t].entries += awake[t - 1].entries;
-  }
-  slave_rows.resize(row_count);
-  entry_of.resize(master_of.size());
-  entry_rows.resize(master_of.size());
-  for (std::size_t r = row_count; r-- > 0;) {
-    slave_rows[--awake[rows[r].slave].rows] = static_cast<Index>(r);
-    for (Index k = rows[r + 1].begin; k-- > rows[r].begin;)
-      entry_rows[entry_of[k] = --awake[master_of[k]].entries] = static_cast<Index>(r);
-  }
+  active_.finish(organs_);
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/contact/lists/active_rows.hpp"
+#include "hmps/contact/lists/broad_phase.hpp"
 #include "hmps/contact/lists/organ_pairs.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
@@ -22,7 +24,6 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/search/grid.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 
@@ -54,11 +55,11 @@ template <class T, int D>
   return sqrt(mean + sqrt(contract<T, D>(C, C) * T((D - 1.) / D)));
 }
 
-/// Which slaves may meet which masters. The outer list holds the pairs within reach plus `margin`, in rows
+/// Which slaves may meet which masters. The broad-phase list holds the pairs within reach plus `margin`, in rows
 /// of one slave each; a grid search makes it, whenever organs have moved or a reach has grown by that
 /// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how far those of a row
 /// may be off that before its slave could touch. From then on every call looks how far each particle truly is off, and
-/// wakes the rows for which that is too far; what is awake makes up the inner list. A check is due when
+/// wakes the rows for which that is too far; what is awake makes up the list that is evaluated. A check is due when
 /// the rows woken since the last one have cost as much as it does, and after `longest_interval` calls (fewer
 /// where much is awake or moves fast), for deformation gradients change too.
 ///
@@ -73,33 +74,9 @@ class Candidates {
   using Point = Vector<S, D>;
   static constexpr Index none = no_particle;
 
-  struct Row {
-    Index slave;  // of the awake particles
-    std::uint32_t side;
-    Index slot;
-    Index begin;    // of its candidates
-    S compression;  // bound of |F_j^-1| of its masters until the next check
-  };
-  struct Awake {
-    Index particle;
-    std::uint8_t flags;
-    Index rows, entries;  // begins of its rows as a slave in slave_rows, of its entries as a master
-  };
-
-  NormalDensity<S, D, Ball> normal_density;
-
-  // The inner list. `rows` and `awake` hold one more at the end, where the last one's ends begin.
-  std::vector<Row> rows;
-  std::vector<Awake> awake;       // every particle of its rows once
-  std::vector<Index> master_of;   // per candidate, one of the awake particles
-  std::vector<Index> entry_of;    // per candidate, its place among the entries of its master
-  std::vector<Index> entry_rows;  // per entry, the row of that candidate: ascending for each master
-  std::vector<Index> slave_rows;  // the rows of each slave, ascending
-  std::size_t rebuilds = 0, checks = 0, late = 0;
-
   /// `spacing` and `margin` in m.
   Candidates(S spacing, S margin)
-      : normal_density(spacing), radius_(static_cast<S>(Ball::radius) * spacing), margin_(margin) {}
+      : normal_density_(spacing), radius_(static_cast<S>(Ball::radius) * spacing), margin_(margin) {}
 
   std::size_t add_organ(const Organ& organ) {
     const std::size_t added = organs_.add_organ(organ);
@@ -113,6 +90,14 @@ class Candidates {
     return added;
   }
   [[nodiscard]] const OrganPairs& organs() const { return organs_; }
+  /// What is to be evaluated: the rows that are awake.
+  [[nodiscard]] const ActiveRows<S>& active() const { return active_; }
+  [[nodiscard]] const NormalDensity<S, D, Ball>& normal_density() const { return normal_density_; }
+  /// How often the grid search ran, how often all was measured, and how often that found a change beyond what was
+  /// allowed for.
+  [[nodiscard]] std::size_t rebuilds() const { return rebuilds_; }
+  [[nodiscard]] std::size_t checks() const { return checks_; }
+  [[nodiscard]] std::size_t late() const { return late_; }
   void refresh() { built_ = false; }
 
   /// The position of particle `i` of the view `x`, in m from the origin of the lists. Where `S` is narrower than the
@@ -126,11 +111,11 @@ class Candidates {
       return x[i].template cast<S>();
   }
 
-  /// Keeps the lists valid for this call; true if the inner one has changed.
+  /// Keeps the lists valid for this call; true if what is awake has changed.
   template <class X, class Gradients, class E>
   bool update(const X& x, const Gradients& F, const E& execute);
 
-  /// Measures all organs, builds the outer list anew where needed, and puts to sleep what can sleep.
+  /// Measures all organs, builds the broad-phase list anew where needed, and puts to sleep what can sleep.
   template <class X, class Gradients, class E>
   void check(const X& x, const Gradients& F, const E& execute);
 
@@ -141,7 +126,7 @@ class Candidates {
   // in rad).
   static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05), least_turn = S(0.03),
                      first_turn = S(0.2);
-  struct OrganMotion {  // since the outer list was built
+  struct OrganMotion {  // since the broad-phase list was built
     Point moved;        // mean displacement
     S motion, growth;   // largest displacement beyond it, largest growth of a reach
   };
@@ -155,25 +140,14 @@ class Candidates {
     bool far, late;
     Index flat = none;  // the first of those without an inverse of F
   };
-  struct OuterRow {
-    Index slave;  // of the numbered particles
-    std::uint32_t side;
-    Index slot;
-    Index begin, kept;  // of its candidates, and the end of those within reach before the next check
-    S compression;
-    S rest;  // by which share of its bound each of its particles may move before it has to wake; zero: awake
-  };
+  using Row = typename BroadPhase<S, D>::Row;
   struct Facing {        // of a slave to one wall, at the latest check
     Point outward;       // normal of the wall; zero where it was not asked for
     S turn;              // by which it may turn until the next check
     bool trusted, late;  // its row sleeps because of it; has turned further
   };
-  struct Near {
-    Index slave, master;
-  };
-
   /// In evaluations of one candidate.
-  [[nodiscard]] std::size_t cost_of_check() const { return outer_master_.size() / 2 + 2 * particle().size(); }
+  [[nodiscard]] std::size_t cost_of_check() const { return broad_.masters().size() / 2 + 2 * particle().size(); }
   [[nodiscard]] const std::vector<OrganPairs::Side>& sides() const { return organs_.sides(); }
   [[nodiscard]] const std::vector<OrganPairs::Member>& members() const { return organs_.members(); }
   [[nodiscard]] const std::vector<Index>& particle() const { return organs_.particle(); }
@@ -190,24 +164,20 @@ class Candidates {
   [[nodiscard]] S used(std::size_t side) const;
   template <class E>
   void build(const E& execute);
-  template <class E>
-  void build_side(std::uint32_t side, const E& execute);
-  void list_rows_of_particles();
   [[nodiscard]] Point expected(std::size_t i) const { return place_[i] + static_cast<S>(age_) * drift_[i]; }
   [[nodiscard]] S longer() const { return static_cast<S>(interval_) / static_cast<S>(std::max<std::size_t>(age_, 1)); }
   void put_to_sleep(std::size_t row);
-  [[nodiscard]] S widest(const OuterRow& row);
+  [[nodiscard]] S widest(const Row& row);
   template <class X, class E>
   [[nodiscard]] bool watch(const X& x, const E& execute);
   void wake(Index particle, S moved_squared);
   void select();
-  void transpose();
 
+  NormalDensity<S, D, Ball> normal_density_;
   S radius_, margin_;
   Vector<double, D> origin_ = Vector<double, D>::Zero();  // in m: from where places are measured
   OrganPairs organs_;
   std::vector<OrganMotion> motion_;  // per organ
-  std::vector<S> limit_;             // per side: motion that the outer list bears
   std::vector<Part> parts_;
   // Of the numbered particles.
   std::vector<Point> place_, built_place_;  // at the latest check and build
@@ -220,13 +190,11 @@ class Candidates {
   std::vector<S> allowance_;                // square of the motion that wakes a row or makes a check due
   std::vector<Index> exceeding_;
   std::vector<Watch> watches_;
-  // The outer list.
-  std::vector<OuterRow> outer_rows_;  // one more at the end
-  std::vector<Index> outer_master_, kept_master_;
-  std::vector<Facing> facing_;                  // per slot
-  std::vector<Index> rows_of_begin_, rows_of_;  // the outer rows that each particle is in
-  // Scratch.
-  std::vector<Index> awake_of_, next_;
+  BroadPhase<S, D> broad_;
+  std::vector<Index> kept_master_;  // of each row, those within reach before the next check
+  std::vector<Facing> facing_;      // per slot
+  ActiveRows<S> active_;
+  std::size_t rebuilds_ = 0, checks_ = 0, late_ = 0;
   std::size_t age_ = 0, interval_ = longest_interval, newly_active_ = 0, active_work_ = 0;
   bool built_ = false;
 };

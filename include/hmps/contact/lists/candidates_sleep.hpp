@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "hmps/contact/candidates.hpp"
+#include "hmps/contact/lists/candidates.hpp"
 #include "hmps/contact/master_surface.hpp"
 #include "hmps/core/abi.hpp"
 
@@ -11,7 +11,7 @@ namespace hmps::inline HMPS_ABI::detail {
 /// less half a spacing and over as much, at which its slave touches. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a
 /// normal that turns by t changes them by t times the largest stretch.
 template <class S, int D, Metaball Ball>
-S Candidates<S, D, Ball>::widest(const OuterRow& row) {
+S Candidates<S, D, Ball>::widest(const Row& row) {
   MasterSurface<S, D, Ball> surface;
   for (Index k = row.begin; k < row.kept; ++k) {
     const Index j = kept_master_[k];
@@ -42,19 +42,19 @@ S Candidates<S, D, Ball>::widest(const OuterRow& row) {
   return (S(1) + strain_[row.slave]) * std::min(stretch, length) * compression;
 }
 
-/// Keeps the masters of outer row `r` that could be within reach before the next check, and tells how
+/// Keeps the masters of row `r` that could be within reach before the next check, and tells how
 /// long it may rest: C is bounded from above with every master as near as it comes if both drift on, and nearer by what
 /// both may move beside that. With B for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
 template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
-  OuterRow& row = outer_rows_[r];
+  Row& row = broad_.rows()[r];
   const Point place = place_[row.slave];
   constexpr std::size_t levels = 3;
   S density[levels] = {};
   row.kept = row.begin;
   row.compression = 0;
-  for (Index k = row.begin; k < outer_rows_[r + 1].begin; ++k) {
-    const Index j = outer_master_[k];
+  for (Index k = row.begin; k < broad_.rows()[r + 1].begin; ++k) {
+    const Index j = broad_.masters()[k];
     Point apart = place_[j] - place;
     const S strain = S(1) + strain_[j], motion = bound_[row.slave] + bound_[j];
     const S furthest = strain * reach_[j] + travel_[row.slave] + travel_[j];
@@ -72,11 +72,12 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
       density[q] += Ball::value(std::min(S(1), nearest * nearest));
     }
   }
-  const S l0 = normal_density.spacing();
+  const S l0 = normal_density_.spacing();
   const auto rests = [&](S touching) {
     row.rest = 1;
     for (std::size_t q = 0; q < levels; ++q, row.rest *= S(0.5))
-      if (!(surface_distance(S(1), normal_density.inverse(density[q]).value, l0) < S(0.5) * l0 * touching)) return true;
+      if (!(surface_distance(S(1), normal_density_.inverse(density[q]).value, l0) < S(0.5) * l0 * touching))
+        return true;
     row.rest = 0;
     return false;
   };
@@ -119,8 +120,8 @@ bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
 template <class S, int D, Metaball Ball>
 void Candidates<S, D, Ball>::wake(Index particle, S moved_squared) {
   S& allowance = allowance_[particle] = bound_[particle] * bound_[particle];
-  for (Index q = rows_of_begin_[particle]; q < rows_of_begin_[particle + 1]; ++q) {
-    OuterRow& row = outer_rows_[rows_of_[q]];
+  for (Index q = broad_.rows_of_begin(particle); q < broad_.rows_of_begin(particle + 1); ++q) {
+    Row& row = broad_.rows()[broad_.rows_of()[q]];
     const S motion = row.rest * bound_[particle], rest_squared = motion * motion;
     if (row.rest == S(0)) continue;
     if (rest_squared < moved_squared) {
