@@ -80,6 +80,7 @@
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/open_surface_lattice.hpp"
 #include "hmps/particles/support.hpp"
+#include "hmps/particles/surface_layers.hpp"
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/particles/thicken.hpp"
 #include "hmps/search/fixed_radius.hpp"
