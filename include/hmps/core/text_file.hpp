@@ -14,23 +14,46 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The bytes of the file `path`. Throws `InputError` if it cannot be read.
-[[nodiscard]] inline std::string read_text(const std::string& path) {
+/// What may come out of a device or a pipe at most, which need not end: 1 GiB.
+inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
+
+/// The bytes of the file `path`. Throws `InputError` if it cannot be read, or if it is no regular file and holds more
+/// than `most` bytes.
+[[nodiscard]] inline std::string read_text(const std::string& path, std::size_t most = most_streamed_bytes) {
   std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
   require(file.good(), "hmps: cannot open ", path, "; check that the file exists and may be read");
   require(!std::filesystem::is_directory(path, ignored), "hmps: ", path, " is a folder; give a file");
+  const bool ends = std::filesystem::is_regular_file(path, ignored);
   // Grown in pieces rather than by the file's size, so that pipes can be read too.
   constexpr std::size_t piece = std::size_t{1} << 20;
   std::string text;
   while (file) {
     const std::size_t size = text.size();
+    require(ends || size <= most, "hmps: ", path, " is no regular file and has not ended after ", most,
+            " bytes; write what it gives to a file, or check the name");
     text.resize(size + piece);
     file.read(text.data() + size, static_cast<std::streamsize>(piece));
     text.resize(size + static_cast<std::size_t>(file.gcount()));
   }
   require(file.eof() && !file.bad(), "hmps: ", path, " cannot be read to its end; check the file and its disk");
   return text;
+}
+
+/// A piece of a file for a message: what cannot be printed as \xNN, cut after 40 characters.
+[[nodiscard]] inline std::string printable(std::string_view text) {
+  constexpr std::size_t most = 40;
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string result;
+  for (const char c : text.substr(0, most)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f)
+      result += c;
+    else
+      result.append("\\x").append({digits[byte >> 4], digits[byte & 15]});
+  }
+  if (text.size() > most) result += "...";
+  return result;
 }
 
 /// `text` without blanks at its ends; a carriage return counts as one.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -34,12 +35,15 @@ struct Table {
     return std::find(names.begin(), names.end(), name) != names.end();
   }
 
-  /// The index of the column `name`. Throws `InputError` that lists the columns if there is none.
+  /// The index of the column `name`. Throws `InputError` that lists the first twenty columns if there is none.
   [[nodiscard]] std::size_t column(std::string_view name) const {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
+      constexpr std::size_t most = 20;
       std::string all;
-      for (const auto& n : names) all += (all.empty() ? "" : ", ") + n;
+      for (std::size_t k = 0; k < std::min(names.size(), most); ++k)
+        all += (k == 0 ? "" : ", ") + detail::printable(names[k]);
+      if (names.size() > most) all += message(" and ", names.size() - most, " more");
       throw InputError(message("hmps: ", source, " has no column '", name, "'; it has ", all));
     }
     return static_cast<std::size_t>(found - names.begin());
@@ -69,6 +73,7 @@ void for_each_cell(std::string_view line, Use&& use) {
 [[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
   Table table;
   table.source = std::move(source);
+  std::unordered_set<std::string_view> named;  // into `text`
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (std::size_t line_number = 1; !text.empty(); ++line_number) {
     std::string_view line = detail::take_line(text);
@@ -80,7 +85,8 @@ void for_each_cell(std::string_view line, Use&& use) {
     if (table.names.empty()) {
       detail::for_each_cell(line, [&](std::string_view name) {
         if (name.empty()) fail("column ", table.names.size() + 1, " has no name; the first line names every column");
-        if (table.has(name)) fail("the column '", name, "' is named twice; name each column once");
+        if (!named.insert(name).second)
+          fail("the column '", detail::printable(name), "' is named twice; name each column once");
         table.names.emplace_back(name);
       });
       continue;
@@ -90,7 +96,8 @@ void for_each_cell(std::string_view line, Use&& use) {
       if (cell_number < table.names.size()) {
         double number{};
         if (!detail::parse_number(cell, number) || !std::isfinite(number))
-          fail("'", cell, "' in column '", table.names[cell_number], "' is not a finite number");
+          fail("'", detail::printable(cell), "' in column '", detail::printable(table.names[cell_number]),
+               "' is not a finite number");
         table.values.push_back(number);
       }
       ++cell_number;

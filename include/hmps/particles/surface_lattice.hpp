@@ -52,6 +52,21 @@ struct PlaneGrid {
   }
 };
 
+/// Throws `InputError` where the extent of a surface and the spacing are so far apart that one of them is in another
+/// unit: more sites than can be sampled, or a spacing larger than the whole surface.
+template <class S>
+void require_plausible(const SurfaceMesh<S>& mesh, const Box<S, 3>& box, double spacing) {
+  if (!is_finite(spacing) || spacing <= 0) return;  // which `lattice_sites` says
+  const Vector<double, 3> extent = (box.upper - box.lower).template cast<double>();
+  const double sites = (extent / spacing).array().max(1.0).prod();
+  const double largest = extent.maxCoeff();
+  require(sites <= most_sites, "hmps: ", mesh.source, " is ", largest, " m large, which holds about ", sites,
+          " lattice sites of spacing ", spacing,
+          " m: give both in metres (a file in millimetres is read with a scale of 1e-3), or a larger spacing");
+  require(spacing <= largest, "hmps: ", mesh.source, " is ", largest, " m large, less than one spacing of ", spacing,
+          " m: give both in metres (1 mm is 1e-3), or a smaller spacing");
+}
+
 /// All crossings of the columns of `sites` with the triangles, ordered by column and height.
 template <class S>
 [[nodiscard]] std::vector<Crossing> crossings(const SurfaceMesh<S>& mesh, const LatticeSites<3>& sites,
@@ -109,13 +124,15 @@ template <class S>
 /// another is a hole. Of sites on the surface those on its lower sides are inside, so that a box of
 /// n spacings holds n sites whatever the origin.
 ///
-/// Throws `InputError` as `require_closed`, for a spacing that is not positive, and for too many sites.
+/// Throws `InputError` as `require_closed`, for a spacing that is not positive, for too many sites,
+/// and for a spacing larger than the surface.
 template <class S, Executor E = Serial>
 [[nodiscard]] std::vector<Vector<S, 3>> fill_lattice(
     const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,
     const std::type_identity_t<Vector<S, 3>>& origin = Vector<S, 3>::Zero(), const E& execute = {}) {
   require_closed(mesh);
   const Box<S, 3> box = bounds(mesh);
+  detail::require_plausible(mesh, box, static_cast<double>(spacing));
   const auto sites = detail::lattice_sites<S, 3>(box, spacing, origin);
   const Vector<double, 3> lower = box.lower.template cast<double>();
   const double extent =

@@ -17,6 +17,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/shapes/implicit.hpp"
+#include "hmps/shapes/surface_edges.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -93,70 +94,128 @@ template <class S>
   return result;
 }
 
-/// Throws `InputError` unless the (welded) surface encloses a solid: finite vertices, triangles with
-/// three different corners of `vertices`, and each edge run through as often in one direction as in
-/// the other: by two triangles, or by four where two parts touch along an edge. The message
-/// names the position of an edge where it fails. Triangles that intersect are not looked for.
+/// Drops the triangles that have the same corners, in the same sense, as an earlier one (a file that holds each
+/// triangle twice), unless the surface would be less closed without them.
 template <class S>
-void require_closed(const SurfaceMesh<S>& mesh) {
-  const Box<S, 3> box = bounds(mesh);
+[[nodiscard]] SurfaceMesh<S> drop_repeated(SurfaceMesh<S> mesh) {
+  const auto repeated = detail::needless_repeats(mesh.triangles);
+  if (!repeated.empty()) mesh.triangles = detail::without(mesh.triangles, repeated);
+  return mesh;
+}
+
+namespace detail {
+
+/// Throws `InputError` unless the surface has triangles, each with three different corners of its finite vertices.
+template <class S>
+void require_triangles(const SurfaceMesh<S>& mesh) {
+  (void)bounds(mesh);
   require(!mesh.triangles.empty(), "hmps: ", mesh.source, " has no triangles; check that the file holds a surface");
-  struct Edge {
-    Index low, high;
-    int forward, backward;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& t = mesh.triangles[k];
     for (std::size_t c = 0; c < 3; ++c) {
-      const Index a = t[c];
-      const Index b = t[(c + 1) % 3];
-      require(a < mesh.vertices.size(), "hmps: triangle ", k, " of ", mesh.source, " names vertex ", a,
+      require(t[c] < mesh.vertices.size(), "hmps: triangle ", k, " of ", mesh.source, " names vertex ", t[c],
               " but there are only ", mesh.vertices.size(), "; check the file");
-      require(a != b, "hmps: triangle ", k, " of ", mesh.source, " names vertex ", a, " twice; weld the surface first");
-      edges.push_back(a < b ? Edge{a, b, 1, 0} : Edge{b, a, 0, 1});
+      require(t[c] != t[(c + 1) % 3], "hmps: triangle ", k, " of ", mesh.source, " names vertex ", t[c],
+              " twice; weld the surface first");
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
-  std::size_t open = 0;
-  std::size_t turned = 0;
-  Vector<S, 3> open_at = box.lower;
-  Vector<S, 3> turned_at = box.lower;
-  for (std::size_t k = 0; k < edges.size();) {
-    Edge edge = edges[k];
-    for (++k; k < edges.size() && edges[k].low == edge.low && edges[k].high == edge.high; ++k) {
-      edge.forward += edges[k].forward;
-      edge.backward += edges[k].backward;
-    }
-    if (edge.forward == edge.backward) continue;
-    const Vector<S, 3> middle = (mesh.vertices[edge.low] + mesh.vertices[edge.high]) / S(2);
-    const bool odd = (edge.forward + edge.backward) % 2 != 0;
-    if ((odd ? open : turned)++ == 0) (odd ? open_at : turned_at) = middle;
-  }
-  require(open == 0, "hmps: ", mesh.source, " is open at ", open, " edges, the first at (", open_at.transpose(),
-          "), so that it has no inside; fill its holes in a mesh editor, or weld with a larger tolerance if its parts "
-          "do not "
-          "quite meet");
-  require(turned == 0, "hmps: ", mesh.source, " has neighbouring triangles of opposite orientation at ", turned,
-          " edges, the first at (", turned_at.transpose(), "); let a mesh editor make the normals consistent");
 }
+
+/// What keeps a surface from being closed, with the middle of the first edge of each kind in m.
+template <class S>
+struct EdgeFaults {
+  struct Kind {
+    std::size_t count = 0;
+    Vector<S, 3> at = Vector<S, 3>::Zero();
+  };
+  Kind open;     ///< edges of one triangle
+  Kind crowded;  ///< edges of three, five, ... triangles
+  Kind turned;   ///< edges run through more often in one direction than in the other
+  Kind shared;   ///< edges of four, six, ... triangles, as many in either direction: no fault in itself
+
+  explicit EdgeFaults(const SurfaceMesh<S>& mesh) : EdgeFaults(mesh, edge_uses(mesh.triangles)) {}
+  EdgeFaults(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges) {
+    for (const EdgeUse& edge : edges) {
+      if (edge.balanced() && edge.uses() == 2) continue;
+      Kind& kind = edge.balanced() ? shared : edge.uses() == 1 ? open : edge.uses() % 2 != 0 ? crowded : turned;
+      if (kind.count++ == 0) kind.at = (mesh.vertices[edge.low] + mesh.vertices[edge.high]) / S(2);
+    }
+  }
+};
+
+/// Throws `InputError` where triangles are there twice, in one sense or in both. Welded surfaces only.
+template <class S>
+void require_single(const SurfaceMesh<S>& mesh) {
+  const auto middle = [&](std::size_t k) {
+    const auto& t = mesh.triangles[k];
+    return Vector<S, 3>((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / S(3));
+  };
+  const auto repeated = needless_repeats(mesh.triangles);
+  if (!repeated.empty())
+    throw InputError(message("hmps: ", mesh.source, " has ", mesh.triangles.size(), " triangles, of which ",
+                             repeated.size(), " are there already, the first at (",
+                             middle(repeated.front()).transpose(), "); call drop_repeated, or delete doubled faces"));
+  const auto hollow = double_sided(mesh.triangles, mesh.vertices.size());
+  if (!hollow.empty())
+    throw InputError(message("hmps: ", mesh.source, " has a part of ", hollow.size(), " triangles, at (",
+                             middle(hollow.front()).transpose(),
+                             "), that is double-sided: each triangle is there in both orientations, so that it "
+                             "encloses nothing; let a mesh editor keep the outer one of each two"));
+}
+
+/// Throws `InputError` where neighbouring triangles are not oriented alike.
+template <class S>
+void require_oriented(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
+  require(faults.turned.count == 0, "hmps: ", mesh.source, " has neighbouring triangles of opposite orientation at ",
+          faults.turned.count, " edges, the first at (", faults.turned.at.transpose(),
+          "); let a mesh editor make the normals consistent");
+}
+
+}  // namespace detail
+
+/// Throws `InputError` unless the (welded) surface encloses a solid: finite vertices, triangles with
+/// three different corners of `vertices`, and each edge run through as often in one direction as in
+/// the other: by two triangles, or by four where two parts touch along an edge. Nor may triangles be there twice: in
+/// one sense (unless the surface were open without them), or in both in a whole part. The message names the position
+/// of what is wrong. Triangles that intersect are not looked for.
+template <class S>
+void require_closed(const SurfaceMesh<S>& mesh) {
+  detail::require_triangles(mesh);
+  const detail::EdgeFaults<S> faults(mesh);
+  // Triangles that are there twice share their edges with others.
+  if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
+  const std::string crowded =
+      faults.crowded.count == 0
+          ? ""
+          : message(faults.crowded.count, " edges at which an odd number of triangles meet, three or more, the first ",
+                    "at (", faults.crowded.at.transpose(), "): a flap or an inner wall; delete it in a mesh editor");
+  require(faults.open.count == 0, "hmps: ", mesh.source, " is open at ", faults.open.count, " edges, the first at (",
+          faults.open.at.transpose(),
+          "), so that it has no inside; fill its holes in a mesh editor, weld with a larger tolerance if its parts do "
+          "not quite meet, or read it with .closed = false and fill it with fill_open_lattice",
+          crowded.empty() ? "" : ". It also has ", crowded);
+  require(crowded.empty(), "hmps: ", mesh.source, " has ", crowded);
+  detail::require_oriented(mesh, faults);
+}
+
+namespace detail {
+/// The solid angle, with its sign, of the triangle a, b, c seen from the origin (van Oosterom and Strackee 1983).
+[[nodiscard]] inline double solid_angle(const Vector<double, 3>& a, const Vector<double, 3>& b,
+                                        const Vector<double, 3>& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+}  // namespace detail
 
 /// Whether `x` lies in the closed surface: whether it winds around x (sum of solid angles). Linear
 /// in the number of triangles; `fill_lattice` is much faster for a lattice.
 template <class S>
 [[nodiscard]] bool inside(const SurfaceMesh<S>& mesh, const Vector<S, 3>& x) {
   double angle = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vector<double, 3> a = (mesh.vertices[t[0]] - x).template cast<double>();
-    const Vector<double, 3> b = (mesh.vertices[t[1]] - x).template cast<double>();
-    const Vector<double, 3> c = (mesh.vertices[t[2]] - x).template cast<double>();
-    const double la = a.norm();
-    const double lb = b.norm();
-    const double lc = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
+  for (const auto& t : mesh.triangles)
+    angle += detail::solid_angle((mesh.vertices[t[0]] - x).template cast<double>(),
+                                 (mesh.vertices[t[1]] - x).template cast<double>(),
+                                 (mesh.vertices[t[2]] - x).template cast<double>());
   return std::abs(angle) > 2 * std::numbers::pi;
 }
 

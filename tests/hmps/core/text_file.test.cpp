@@ -7,6 +7,10 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <thread>
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#endif
 
 namespace {
 
@@ -23,6 +27,38 @@ TEST(TextFile, ReadsAllBytesAndNamesWhatItCannotRead) {
   std::filesystem::remove(path);
   EXPECT_THROW((void)read_text(path), hmps::InputError);
   EXPECT_THROW((void)read_text(std::filesystem::temp_directory_path().string()), hmps::InputError);
+}
+
+TEST(TextFile, EndsWithWhatDoesNotEnd) {
+  if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP() << "no endless file here";
+  try {
+    (void)read_text("/dev/zero", 3'000'000);
+    FAIL() << "an endless file has ended";
+  } catch (const hmps::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/dev/zero is no regular file and has not ended after 3000000 bytes"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+#if defined(__unix__) || defined(__APPLE__)
+TEST(TextFile, ReadsPipes) {
+  const auto path = (std::filesystem::temp_directory_path() / "hmps_text_file_pipe").string();
+  std::filesystem::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  const std::string bytes(200'000, 'y');
+  std::thread writer([&] { std::ofstream(path, std::ios::binary) << bytes; });
+  const std::string text = read_text(path);
+  writer.join();
+  std::filesystem::remove(path);
+  EXPECT_EQ(text, bytes);
+}
+#endif
+
+TEST(TextFile, QuotesOnlyWhatCanBePrinted) {
+  EXPECT_EQ(printable("vertex 1"), "vertex 1");
+  EXPECT_EQ(printable(std::string_view("a\0\n\xff\x1b[2J", 8)), "a\\x00\\x0a\\xff\\x1b[2J");
+  EXPECT_EQ(printable(std::string(41, 'q')), std::string(40, 'q') + "...");
 }
 
 TEST(TextFile, CutsLinesAndWords) {

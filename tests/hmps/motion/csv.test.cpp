@@ -55,6 +55,18 @@ TEST(Csv, NamesSourceLineAndColumnOfWhatIsWrong) {
   expect_contains(failure([] { (void)hmps::read_csv("no/such/trace.csv"); }), "cannot open no/such/trace.csv");
 }
 
+TEST(Csv, QuotesNoRawBytesAndNotEveryColumn) {
+  std::string header = "t";
+  for (int k = 1; k < 50'000; ++k) header += ",c" + std::to_string(k);
+  const auto table = hmps::parse_csv(header + "\n", "wide.csv");
+  EXPECT_EQ(table.columns(), 50'000u);
+  const std::string text = failure([&] { (void)table.column("x"); });
+  expect_contains(text, "it has t, c1");
+  expect_contains(text, "c19 and 49980 more");
+  expect_contains(failure([&] { (void)hmps::parse_csv(header + ",c7\n", "wide.csv"); }), "'c7' is named twice");
+  expect_contains(failure([] { (void)hmps::parse_csv("t\x1b\n\xff\n", "raw.csv"); }), "'\\xff' in column 't\\x1b'");
+}
+
 TEST(Csv, ReadsFiles) {
   const auto path = (std::filesystem::temp_directory_path() / "hmps_csv_test.csv").string();
   std::ofstream(path) << "t,x\n0,1\n2,3\n";

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "../shapes/surfaces.hpp"
 
@@ -111,7 +112,18 @@ TYPED_TEST(SurfaceLattice, RefusesOpenSurfacesAndSpacingsThatMakeNoSense) {
   EXPECT_THROW((void)hmps::fill_lattice(open, S(0.5)), hmps::InputError);
   EXPECT_THROW((void)hmps::fill_lattice(box, S(0)), hmps::InputError);
   EXPECT_THROW((void)hmps::fill_lattice(box, S(1e-6)), hmps::InputError);
-  EXPECT_TRUE(hmps::fill_lattice(box, S(10), V(V::Constant(S(5)))).empty());
+  EXPECT_EQ(hmps::fill_lattice(box, S(1), V(V::Constant(S(0.5)))).size(), 1u);
+  const auto message = [&](S spacing) {
+    try {
+      (void)hmps::fill_lattice(box, spacing);
+    } catch (const hmps::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  // Millimetres that were taken for metres, either way.
+  EXPECT_NE(message(S(1.2)).find("is 1 m large, less than one spacing of 1.2"), std::string::npos) << message(S(1.2));
+  EXPECT_NE(message(S(1e-4)).find("read with a scale of 1e-3"), std::string::npos) << message(S(1e-4));
 }
 
 }  // namespace

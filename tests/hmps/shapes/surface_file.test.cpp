@@ -104,6 +104,106 @@ TYPED_TEST(SurfaceFile, ObjTakesPolygonsAndNegativeIndices) {
   EXPECT_NEAR(hmps::volume(mesh), 1, 8 * std::numeric_limits<S>::epsilon());
 }
 
+/// `text` with every `from` replaced by `to`.
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+TYPED_TEST(SurfaceFile, AsciiStlIsReadAsProgramsWriteIt) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
+  const std::string usual = ascii_stl(box);
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string unix_ends = replaced(usual, "\r\n", "\n");
+  const std::string two = replaced(ascii_stl(box_surface<S>(V(2, 0, 0), V(3, 1, 1))), "thing", "other");
+  for (const auto& [bytes, solids] :
+       {std::pair{replaced(unix_ends, "solid thing", "solid"), 1}, std::pair{"\r\n \n" + usual, 1},
+        std::pair{mark + usual, 1}, std::pair{mark + "\n\nSOLID\n" + unix_ends.substr(unix_ends.find('\n') + 1), 1},
+        std::pair{replaced(replaced(usual, "endsolid", "end solid"), "endfacet", "end facet"), 1},
+        std::pair{replaced(unix_ends, "\n", "\r"), 1}, std::pair{usual + "\n" + two, 2},
+        std::pair{replaced(usual, "thing", "caf\xE9 \x80"), 1},
+        std::pair{usual.substr(0, usual.rfind("endsolid")), 1}}) {
+    const TemporaryFile file(".stl", bytes);
+    const auto mesh = hmps::read_surface<S>(file.path());
+    EXPECT_EQ(mesh.triangles.size(), 12u * static_cast<std::size_t>(solids)) << bytes.substr(0, 60);
+    EXPECT_NEAR(hmps::volume(mesh), solids, 1e-6);
+  }
+}
+
+TYPED_TEST(SurfaceFile, BinaryStlIsReadWithItsTailButNotWithoutTriangles) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
+  std::string zeros = "solid SolidWorks";
+  zeros.resize(80, '\0');
+  for (const std::string& bytes :
+       {binary_stl(box, "solid SolidWorks") + "\n\n", binary_stl(box, zeros) + std::string(49, 'x'),
+        binary_stl(box, "binary") + std::string(512, '\0')}) {
+    const TemporaryFile file(".stl", bytes);
+    EXPECT_EQ(hmps::read_surface<S>(file.path()).triangles.size(), 12u);
+  }
+  std::string short_count = binary_stl(box, "binary");
+  short_count[80] = 10;
+  const TemporaryFile file(".stl", short_count);
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path()); }),
+                  "announces 10 triangles, which end at byte 584, but 100 bytes follow, enough for 2 more");
+}
+
+TYPED_TEST(SurfaceFile, ObjLinesGoOnAndFacesMayComeFirst) {
+  using S = TypeParam;
+  const std::string faces = "f 4 3 \\\n 2 1\nf 5 6 7\\ \r\n8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7 # \\\nf 4 1 5 8\n";
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 \\\n 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  for (const std::string& bytes : {points + faces, faces + points, "\xEF\xBB\xBF" + points + faces}) {
+    const TemporaryFile file(".obj", bytes);
+    const auto mesh = hmps::read_surface<S>(file.path());
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    EXPECT_NEAR(hmps::volume(mesh), 1, 8 * std::numeric_limits<S>::epsilon());
+  }
+  // Lines are counted as the file has them.
+  const TemporaryFile beyond(".obj", points + "f 1 2 \\\n 3\nf 1 2 9\n");
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(beyond.path()); }),
+                  "line 12: a face names vertex 9 but 8 vertices are in the file");
+  const TemporaryFile last(".obj", points + "f 1 2 3 \\");
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(last.path()); }), "is open at 3 edges");
+}
+
+TYPED_TEST(SurfaceFile, DoubledFacesGiveTheBodyOrAnError) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
+  auto once = box;
+  once.triangles.push_back(box.triangles.back());
+  for (const auto& mesh : {once, joined(box, box)})
+    for (const auto& [ending, bytes] : {std::pair{".stl", ascii_stl(mesh)}, std::pair{".obj", obj(mesh)}}) {
+      const TemporaryFile file(ending, bytes);
+      const auto read = hmps::read_surface<S>(file.path());
+      EXPECT_EQ(read.triangles.size(), 12u);
+      EXPECT_NEAR(hmps::volume(read), 1, 8 * std::numeric_limits<S>::epsilon());
+    }
+  const TemporaryFile file(".stl", binary_stl(joined(box, reversed(box)), "binary"));
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path()); }), "a part of 24 triangles");
+}
+
+TYPED_TEST(SurfaceFile, OpenSurfacesAreReadOnRequest) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  auto open = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
+  open.triangles.pop_back();
+  const std::string bytes = ascii_stl(open);
+  const TemporaryFile file(".stl", bytes);
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path()); }), "read it with .closed = false");
+  const auto mesh = hmps::read_surface<S>(file.path(), {.scale = 1e-3, .closed = false});
+  EXPECT_EQ(mesh.triangles.size(), 11u);
+  EXPECT_EQ(hmps::bounds(mesh).upper, V(V::Constant(static_cast<S>(1e-3))));
+  // What is cut off between two facets looks like an open surface.
+  const TemporaryFile cut(".stl", bytes.substr(0, bytes.rfind("endsolid")));
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(cut.path(), {.closed = false}); }), "without 'endsolid'");
+  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path(), {.scale = 0}); }), "a scale of 0");
+}
+
 TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   using S = TypeParam;
   using V = Vector<S, 3>;
@@ -116,7 +216,7 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   expect_contains(message(".obj", "v 0 0 0\nv 1 x 0\n"), "line 2: 'x' is not a finite number");
   expect_contains(message(".obj", "v 0 0\n"), "line 1: a vertex has only 2 coordinates");
   expect_contains(message(".obj", "v 0 0 inf\n"), "line 1: 'inf' is not a finite number");
-  expect_contains(message(".obj", "v 0 0 0\nf 1 2 3\n"), "line 2: a face names vertex 2 but 1 vertices");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 2 3\n"), "line 2: a face names vertex 2 but 1 vertices are in");
   expect_contains(message(".obj", "v 0 0 0\nf 1 1\n"), "line 2: a face has 2 corners");
   expect_contains(message(".obj", "v 0 0 0\nf 1 a 1\n"), "line 2: 'a' is no corner");
   expect_contains(message(".obj", "v 0 0 0\nf 0 1 1\n"), "line 2: a face names vertex 0");
@@ -127,6 +227,11 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\n"), "cut off");
   expect_contains(message(".stl", "solid a\nfacets\n"), "line 2: 'facets' is no word");
   expect_contains(message(".stl", "PK"), "is no STL file");
+  expect_contains(message(".stl", "solid a\nfa\xFF\x1b[2Jcet\n"), "line 2: 'fa\\xff\\x1b[2jcet' is no word");
+  expect_contains(message(".obj", "v 0 0 \x01\n"), "line 1: '\\x01' is not a finite number");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 1 \xC3\n"), "line 2: '\\xc3' is no corner");
+  expect_contains(message(".obj", "\xFF\xFEv"), "UTF-16");
+  expect_contains(message(".obj", "f 1 2 9999999999\n"), "line 1: a face names vertex 9999999999, more than");
   const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
   const std::string whole = binary_stl(box, "binary");
   expect_contains(message(".stl", whole.substr(0, whole.size() - 7)),
@@ -138,6 +243,7 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   open.triangles.pop_back();
   expect_contains(message(".stl", ascii_stl(open)), "is open at 3 edges");
   expect_contains(message(".ply", ""), "neither .stl nor .obj");
+  expect_contains(message(".vtp", ""), "ParaView");
   expect_contains(failure([] { (void)hmps::read_obj<S>("no/such/file.obj"); }), "cannot open no/such/file.obj");
   EXPECT_THROW((void)hmps::read_stl<S>(std::filesystem::temp_directory_path().string()), hmps::InputError);
 }

@@ -121,6 +121,65 @@ TYPED_TEST(SurfaceMesh, OpenTurnedAndBrokenSurfacesAreNamed) {
   EXPECT_THROW(hmps::require_closed(bare), hmps::InputError);
 }
 
+TYPED_TEST(SurfaceMesh, SaysWhichTrianglesAreThereTwice) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  const auto box = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
+  const auto message = [](const auto& mesh) { return failure([&] { hmps::require_closed(mesh); }); };
+  auto one_twice = box;
+  one_twice.triangles.push_back({2, 1, 0});  // the first one, {0, 2, 1}, begun elsewhere
+  EXPECT_NE(message(one_twice).find("13 triangles, of which 1 are there already"), std::string::npos)
+      << message(one_twice);
+  auto all_twice = box;
+  all_twice.triangles.insert(all_twice.triangles.end(), box.triangles.begin(), box.triangles.end());
+  EXPECT_NE(message(all_twice).find("24 triangles, of which 12"), std::string::npos) << message(all_twice);
+  for (const auto& mesh : {one_twice, all_twice}) {
+    const auto single = hmps::drop_repeated(mesh);
+    EXPECT_NO_THROW(hmps::require_closed(single));
+    EXPECT_EQ(single.triangles, box.triangles);
+  }
+  const auto both_sides = hmps::weld(joined(box, reversed(box)));
+  EXPECT_NE(message(both_sides).find("a part of 24 triangles"), std::string::npos) << message(both_sides);
+  EXPECT_NE(message(both_sides).find("double-sided"), std::string::npos);
+  // Beside a sound body too: the part would be missing without a word.
+  const auto part = joined(box_surface<S>(V(4, 0, 0), V(5, 1, 1)), both_sides);
+  EXPECT_NE(message(part).find("a part of 24 triangles"), std::string::npos) << message(part);
+}
+
+TYPED_TEST(SurfaceMesh, PartsMayShareTriangles) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
+  // Face to face: the wall between them is there in both senses.
+  const auto beside = hmps::weld(joined(box, box_surface<S>(V(0, 0, 1), V(1, 1, 2))));
+  EXPECT_EQ(beside.vertices.size(), 12u);
+  EXPECT_NO_THROW(hmps::require_closed(beside));
+  // One in the other on the same ground, which is there twice in one sense and cannot be spared once.
+  const auto within = hmps::weld(joined(box, box_surface<S>(V(0, 0, 0), V(1, 1, 2))));
+  EXPECT_EQ(within.vertices.size(), 12u);
+  EXPECT_NO_THROW(hmps::require_closed(within));
+  EXPECT_EQ(hmps::drop_repeated(within).triangles.size(), 24u);
+}
+
+TYPED_TEST(SurfaceMesh, TellsFlapsFromHoles) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  auto flap = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
+  flap.vertices.push_back(V(-1, -1, 1));
+  flap.triangles.push_back({0, 4, 8});
+  std::string text = failure([&] { hmps::require_closed(flap); });
+  EXPECT_NE(text.find("is open at 2 edges"), std::string::npos) << text;
+  EXPECT_NE(text.find("It also has 1 edges at which an odd number of triangles meet"), std::string::npos) << text;
+  // An inner wall from edge to edge leaves no edge open.
+  auto wall = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
+  wall.triangles.push_back({2, 3, 4});
+  wall.triangles.push_back({3, 5, 4});
+  text = failure([&] { hmps::require_closed(wall); });
+  EXPECT_EQ(text.find("open"), std::string::npos) << text;
+  EXPECT_NE(text.find("4 edges at which an odd number of triangles meet"), std::string::npos) << text;
+  EXPECT_NE(text.find("inner wall"), std::string::npos) << text;
+}
+
 TYPED_TEST(SurfaceMesh, TellsInsideFromOutside) {
   using S = TypeParam;
   using V = Vector<S, 3>;

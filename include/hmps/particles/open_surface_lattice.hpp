@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/particles/lattice.hpp"
+#include "hmps/particles/surface_lattice.hpp"
+#include "hmps/shapes/surface_edges.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
+#include "hmps/shapes/triangle_tree.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// What `fill_open_lattice` returns: the particles, and what had to be assumed for them.
+template <class S>
+struct OpenLattice {
+  std::vector<Vector<S, 3>> points;  ///< m
+  std::size_t open_edges = 0;        ///< edges of one triangle
+  std::size_t crowded_edges = 0;     ///< edges of three, five, ... triangles: flaps and inner walls
+  std::size_t holes = 0;             ///< connected groups of open edges
+  double largest_hole = 0;           ///< diagonal in m of the box around the largest of them
+  /// Sites of the box, inside or not, with a winding number between 0.25 and 0.75 (up to its sign): near holes, where
+  /// the surface says little about what is inside.
+  std::size_t doubtful_sites = 0;
+};
+
+namespace detail {
+
+/// Writes to `result` how many holes there are, and how large they are.
+template <class S>
+void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges, OpenLattice<S>& result) {
+  VertexGroups groups(mesh.vertices.size());
+  const auto is_open = [](const EdgeUse& edge) { return edge.uses() == 1; };
+  for (const EdgeUse& edge : edges)
+    if (is_open(edge)) groups.join(edge.low, edge.high);
+  std::map<Index, Box<S, 3>> holes;
+  for (const EdgeUse& edge : edges) {
+    if (!is_open(edge)) continue;
+    for (const Index v : {edge.low, edge.high}) {
+      const Vector<S, 3>& x = mesh.vertices[v];
+      Box<S, 3>& box = holes.try_emplace(groups.group(v), Box<S, 3>{x, x}).first->second;
+      box.lower = box.lower.cwiseMin(x);
+      box.upper = box.upper.cwiseMax(x);
+    }
+  }
+  result.holes = holes.size();
+  for (const auto& [group, box] : holes)
+    result.largest_hole = std::max(result.largest_hole, static_cast<double>((box.upper - box.lower).norm()));
+}
+
+}  // namespace detail
+
+/// The sites of a lattice, as those of `fill_lattice`, inside of a surface that need not be closed: where it winds
+/// around a site by more than half (Jacobson et al. 2013). A hole is so closed by a smooth cover; the smaller it is
+/// beside the body, the less it matters. For a closed surface the points are those of `fill_lattice`. Look at what is
+/// returned beside the points: many doubtful sites mean that the shape is a guess there. Takes a few microseconds per
+/// site of the box around the surface; slabs run through `execute`, and the result does not depend on it.
+///
+///     const auto mesh = read_surface<double>("organ.stl", {.scale = 1e-3, .closed = false});
+///     const auto [points, open_edges, crowded, holes, largest_hole, doubtful] = fill_open_lattice(mesh, 1.2e-3);
+///
+/// @param mesh      welded; triangles may be missing, but neighbours must be oriented alike
+/// @param accuracy  of winding numbers, see `TriangleTree`; with 2 they are right to about 0.01
+/// Throws `InputError` as `fill_lattice`, for triangles that are there twice, for neighbours of opposite orientation,
+/// and for a surface that surely encloses no site (winding number of 0.75 or more).
+template <class S, Executor E = Serial>
+[[nodiscard]] OpenLattice<S> fill_open_lattice(const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,
+                                               const std::type_identity_t<Vector<S, 3>>& origin = Vector<S, 3>::Zero(),
+                                               const E& execute = {}, double accuracy = 2) {
+  const TriangleTree tree(mesh, accuracy);
+  const auto edges = detail::edge_uses(mesh.triangles);
+  const detail::EdgeFaults<S> faults(mesh, edges);
+  if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
+  detail::require_oriented(mesh, faults);
+  OpenLattice<S> result;
+  result.open_edges = faults.open.count;
+  result.crowded_edges = faults.crowded.count;
+  detail::measure_holes(mesh, edges, result);
+
+  const Box<S, 3> box = bounds(mesh);
+  detail::require_plausible(mesh, box, static_cast<double>(spacing));
+  const auto sites = detail::lattice_sites<S, 3>(box, spacing, origin);
+  // Of sites on the surface those on its lower sides are inside, as in `fill_lattice`; no two steps alike.
+  const double hair = std::max(1e-9 * static_cast<double>(spacing), detail::coordinate_rounding<S, 3>(box, origin));
+  const Vector<double, 3> aside = hair * Vector<double, 3>(8, 6.5, 5.25);
+  std::vector<std::vector<Vector<S, 3>>> slabs(static_cast<std::size_t>(sites.count[0]));
+  std::vector<std::size_t> doubtful(slabs.size(), 0), sure(slabs.size(), 0);
+  execute(slabs.size(), [&](std::size_t slab) {
+    std::size_t in_doubt = 0, surely_inside = 0;
+    Vector<double, 3> x;
+    x[0] = sites.coordinate(0, static_cast<std::int64_t>(slab));
+    for (std::int64_t j = 0; j < sites.count[1]; ++j) {
+      x[1] = sites.coordinate(1, j);
+      for (std::int64_t k = 0; k < sites.count[2]; ++k) {
+        x[2] = sites.coordinate(2, k);
+        const double winding = std::abs(tree.winding_number(x + aside));
+        if (winding > 0.25 && winding < 0.75) ++in_doubt;
+        if (winding >= 0.75) ++surely_inside;
+        if (winding > 0.5) slabs[slab].push_back(x.template cast<S>());
+      }
+    }
+    doubtful[slab] = in_doubt;
+    sure[slab] = surely_inside;
+  });
+  for (const std::size_t count : doubtful) result.doubtful_sites += count;
+  result.points = detail::joined<S, 3>(slabs, execute);
+  // A flat sheet has a winding number of a half on itself, so that rounding may put its sites inside.
+  require(std::any_of(sure.begin(), sure.end(), [](std::size_t count) { return count > 0; }), "hmps: ", mesh.source,
+          ", which is open at ", result.open_edges, " edges, surely encloses no lattice site of spacing ", spacing,
+          " m (winding number 0.75 or more): it is too open, or the spacing is too large");
+  return result;
+}
+
+}  // namespace hmps::inline HMPS_ABI

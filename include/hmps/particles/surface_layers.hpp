@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "hmps/bonds/bond_settings.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/search/fixed_radius.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// The layers at the surface of a body, for contact: the slaves and the masters of an `Organ`.
+struct SurfaceLayers {
+  std::vector<Index> outermost;      ///< the outermost layer, sorted
+  std::vector<Index> two_outermost;  ///< the two outermost layers, sorted
+};
+
+namespace detail {
+
+/// Directions spread evenly over the circle or the sphere (Fibonacci).
+template <int D>
+[[nodiscard]] std::vector<Vector<double, D>> spread_directions(std::size_t n) {
+  std::vector<Vector<double, D>> directions(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+    if constexpr (D == 2) {
+      directions[k] = {std::cos(2 * std::numbers::pi * part), std::sin(2 * std::numbers::pi * part)};
+    } else {
+      const double z = 1 - 2 * part, r = std::sqrt(1 - z * z);
+      const double turn = 2 * std::numbers::pi * static_cast<double>(k) / std::numbers::phi;
+      directions[k] = {r * std::cos(turn), r * std::sin(turn), z};
+    }
+  }
+  return directions;
+}
+
+/// Whether there is one of `directions` to which all of `neighbours`, unit vectors, make an angle whose cosine is at
+/// most `limit`.
+template <int D>
+[[nodiscard]] bool sees_out(const std::vector<Vector<double, D>>& neighbours,
+                            const std::vector<Vector<double, D>>& directions, double limit) {
+  return std::any_of(directions.begin(), directions.end(), [&](const Vector<double, D>& direction) {
+    return std::all_of(neighbours.begin(), neighbours.end(),
+                       [&](const Vector<double, D>& to) { return to.dot(direction) <= limit; });
+  });
+}
+
+}  // namespace detail
+
+/// The outermost layer of a body, and its two outermost layers, from the places of its particles alone: on a lattice,
+/// in any cloud that is about evenly spaced, in walls of any thickness.
+///
+///     const auto layers = surface_layers(vectors(points), l0);
+///     contact.add_organ({.name = "organ", .slaves = layers.outermost, .masters = layers.two_outermost});
+///
+/// A particle is of the outermost layer if it sees out: if a cone of half angle 56 degrees with its tip there holds no
+/// other particle within 1.8 spacings. At a flat surface such a cone opens to 90 degrees; at the foot of a step of a
+/// surface that is cut out of a lattice to 67 (to 60 where two steps meet in a corner); a particle below the layer sees
+/// out by 55 degrees at most in a cubic lattice, under a surface across the diagonal of its cells, and inside by 28.
+/// In a wall two particles thick every particle so is outermost, in a sheet of one too. A cone of less than 60 degrees
+/// (2D: 57) may be overlooked, since a finite number of directions is tried. The second layer is what lies within 1.5
+/// spacings of the outermost one: one layer along a lattice, whose layers lie a spacing apart, two or more across its
+/// diagonals, where they lie closer: about as far down, two spacings below the surface.
+///
+/// Cavities that hold no particle have a surface too. So do gaps in a cloud, where neighbours are further than about
+/// 1.5 spacings apart.
+///
+/// @param points   reference positions in m
+/// @param spacing  l0 in m
+/// @param bonded   `bonded(i, j)`: whether two particles are of one body; symmetric
+/// Throws `InputError` for a spacing that is not positive, positions that are not finite, and coincident particles.
+template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
+[[nodiscard]] SurfaceLayers surface_layers(const VectorView<T, D>& points, double spacing, const Bonded& bonded = {},
+                                           const E& execute = {}) {
+  static_assert(D == 2 || D == 3, "hmps: layers are found in 2 or 3 dimensions");
+  using S = typename VectorView<T, D>::Scalar;
+  require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of surface layers is ", spacing,
+          " m; give the particles' positive distance in the reference configuration");
+  // Directions lie within 3.5 degrees (2D: 1) of any other.
+  const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
+  const double limit = std::cos(56 * std::numbers::pi / 180);
+  // Between the neighbours across the diagonal of a cell, at 1.73, and the next ones, at 2.
+  const NeighbourList near = find_neighbours(points, static_cast<S>(1.8 * spacing), execute);
+  const auto for_each = [&](std::size_t i, auto&& visit) {
+    const Vector<double, D> here = points[i].template cast<double>();
+    for (const Index j : near[i])
+      if (bonded(i, static_cast<std::size_t>(j))) visit(j, Vector<double, D>(points[j].template cast<double>() - here));
+  };
+  std::vector<char> layer(points.size(), 0);
+  execute(points.size(), [&](std::size_t i) {
+    std::vector<Vector<double, D>> to;
+    for_each(i, [&](Index, const Vector<double, D>& r) { to.push_back(r); });
+    // The nearest ones block most directions.
+    std::stable_sort(to.begin(), to.end(),
+                     [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
+    for (auto& r : to) r.normalize();
+    layer[i] = detail::sees_out<D>(to, directions, limit) ? 1 : 0;
+  });
+  std::vector<char> second(points.size(), 0);
+  execute(points.size(), [&](std::size_t i) {
+    if (layer[i] == 1) return;
+    bool found = false;
+    for_each(
+        i, [&](Index j, const Vector<double, D>& r) { found = found || (layer[j] == 1 && r.norm() <= 1.5 * spacing); });
+    second[i] = found ? 1 : 0;
+  });
+  SurfaceLayers result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (layer[i] == 1) result.outermost.push_back(static_cast<Index>(i));
+    if (layer[i] == 1 || second[i] == 1) result.two_outermost.push_back(static_cast<Index>(i));
+  }
+  return result;
+}
+
+}  // namespace hmps::inline HMPS_ABI

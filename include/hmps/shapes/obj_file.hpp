@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/text_file.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
+#include "hmps/shapes/surface_text.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+namespace detail {
+
+/// Reads the `v` and `f` lines of a Wavefront OBJ file.
+template <class S>
+class ObjParser {
+ public:
+  ObjParser(SurfaceMesh<S>& mesh, double scale) : mesh_(mesh), scale_(scale), place_{mesh.source} {}
+
+  void operator()(std::string_view text) {
+    std::string joined;
+    while (!text.empty()) {
+      ++place_.line;
+      std::size_t more = 0;
+      std::string_view line = take_line(text);
+      line = line.substr(0, line.find('#'));
+      if (trimmed(line).ends_with('\\')) {
+        // Goes on in the next line.
+        joined.clear();
+        while (trimmed(line).ends_with('\\')) {
+          line = trimmed(line);
+          joined.append(line.substr(0, line.size() - 1)).push_back(' ');
+          line = {};
+          if (text.empty()) break;
+          ++more;
+          line = take_line(text);
+          line = line.substr(0, line.find('#'));
+        }
+        line = joined.append(line);
+      }
+      take(line);
+      place_.line += more;
+    }
+    for (const Ahead& ahead : ahead_)
+      if (ahead.number > static_cast<std::int64_t>(mesh_.vertices.size())) {
+        place_.line = ahead.line;
+        place_.fail("a face names vertex ", ahead.number, " but ", mesh_.vertices.size(), " vertices are in the file");
+      }
+  }
+
+ private:
+  /// A corner that names a vertex which the file has not shown yet.
+  struct Ahead {
+    std::int64_t number;
+    std::size_t line;
+  };
+
+  void take(std::string_view line) {
+    const std::string_view word = take_word(line);
+    if (word == "v")
+      mesh_.vertices.push_back(take_point<S>(line, scale_, place_));
+    else if (word == "f")
+      take_face(line);
+  }
+
+  void take_face(std::string_view line) {
+    polygon_.clear();
+    for (std::string_view corner = take_word(line); !corner.empty(); corner = take_word(line)) {
+      std::int64_t number{};
+      if (!parse_number(corner.substr(0, corner.find('/')), number))
+        place_.fail("'", printable(corner), "' is no corner of a face");
+      const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
+      // Positive from the first vertex, negative back from the last one so far.
+      if (number == 0 || number < -count)
+        place_.fail("a face names vertex ", number, " but ", count, " vertices stand before it");
+      if (number >= static_cast<std::int64_t>(std::numeric_limits<Index>::max()))
+        place_.fail("a face names vertex ", number, ", more than an index of 32 bits can name");
+      if (number > count) ahead_.push_back({number, place_.line});
+      polygon_.push_back(static_cast<Index>(number > 0 ? number - 1 : count + number));
+    }
+    if (polygon_.size() < 3) place_.fail("a face has ", polygon_.size(), " corners; it needs at least three");
+    for (std::size_t c = 2; c < polygon_.size(); ++c)
+      mesh_.triangles.push_back({polygon_[0], polygon_[c - 1], polygon_[c]});
+  }
+
+  SurfaceMesh<S>& mesh_;
+  double scale_;
+  TextPlace place_;
+  std::vector<Index> polygon_;
+  std::vector<Ahead> ahead_;
+};
+
+}  // namespace detail
+
+/// Reads a surface from a Wavefront OBJ file: its `v` and `f` lines, in any order; polygons are cut into
+/// fans, and what else the format knows (normals, textures, groups, materials) is passed over. A line that ends in a
+/// backslash goes on in the next. Welded, checked and scaled as in `read_stl`. Throws `InputError` with the line if it
+/// cannot be read.
+template <class S>
+[[nodiscard]] SurfaceMesh<S> read_obj(const std::string& path, const SurfaceFileSettings& settings) {
+  detail::validate(settings, path);
+  std::string text = detail::read_text(path);
+  detail::clean_text(text, path);
+  SurfaceMesh<S> mesh;
+  mesh.source = path;
+  detail::ObjParser<S>(mesh, settings.scale)(text);
+  return detail::finished(mesh, settings);
+}
+
+/// Reads a closed surface from a Wavefront OBJ file.
+template <class S>
+[[nodiscard]] SurfaceMesh<S> read_obj(const std::string& path, double scale = 1, double tolerance = 1e-6) {
+  return read_obj<S>(path, SurfaceFileSettings{scale, tolerance});
+}
+
+}  // namespace hmps::inline HMPS_ABI

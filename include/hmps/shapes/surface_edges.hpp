@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps::inline HMPS_ABI::detail {
+
+using Triangles = std::vector<std::array<Index, 3>>;
+
+/// An edge of a surface, and how many triangles run through it in either direction.
+struct EdgeUse {
+  Index low, high;  ///< its vertices
+  int forward, backward;
+
+  [[nodiscard]] int uses() const { return forward + backward; }
+  [[nodiscard]] bool balanced() const { return forward == backward; }
+};
+
+/// The edges of `triangles`, each once, ordered by their vertices.
+[[nodiscard]] inline std::vector<EdgeUse> edge_uses(const Triangles& triangles) {
+  std::vector<EdgeUse> edges;
+  edges.reserve(3 * triangles.size());
+  for (const auto& t : triangles)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index a = t[c], b = t[(c + 1) % 3];
+      edges.push_back(a < b ? EdgeUse{a, b, 1, 0} : EdgeUse{b, a, 0, 1});
+    }
+  const auto key = [](const EdgeUse& e) { return std::pair(e.low, e.high); };
+  std::sort(edges.begin(), edges.end(), [&](const EdgeUse& a, const EdgeUse& b) { return key(a) < key(b); });
+  std::size_t kept = 0;
+  for (const EdgeUse& edge : edges) {
+    if (kept > 0 && key(edges[kept - 1]) == key(edge)) {
+      edges[kept - 1].forward += edge.forward;
+      edges[kept - 1].backward += edge.backward;
+    } else {
+      edges[kept++] = edge;
+    }
+  }
+  edges.erase(edges.begin() + static_cast<std::ptrdiff_t>(kept), edges.end());
+  return edges;
+}
+
+[[nodiscard]] inline std::size_t count_unbalanced(const std::vector<EdgeUse>& edges) {
+  return static_cast<std::size_t>(
+      std::count_if(edges.begin(), edges.end(), [](const EdgeUse& e) { return !e.balanced(); }));
+}
+
+/// The triangle with its smallest vertex first: the same for the same corners in the same sense.
+[[nodiscard]] inline std::array<Index, 3> turned_to_smallest(std::array<Index, 3> t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+/// The triangles that have the same corners, in the same sense, as an earlier one; in order.
+[[nodiscard]] inline std::vector<std::size_t> repeated_triangles(const Triangles& triangles) {
+  using Named = std::pair<std::array<Index, 3>, std::size_t>;
+  std::vector<Named> named;
+  named.reserve(triangles.size());
+  for (std::size_t k = 0; k < triangles.size(); ++k) named.emplace_back(turned_to_smallest(triangles[k]), k);
+  std::sort(named.begin(), named.end());
+  std::vector<std::size_t> repeated;
+  for (std::size_t k = 1; k < named.size(); ++k)
+    if (named[k].first == named[k - 1].first) repeated.push_back(named[k].second);
+  std::sort(repeated.begin(), repeated.end());
+  return repeated;
+}
+
+[[nodiscard]] inline Triangles without(const Triangles& triangles, const std::vector<std::size_t>& dropped) {
+  Triangles left;
+  left.reserve(triangles.size() - dropped.size());
+  auto next = dropped.begin();
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    if (next != dropped.end() && *next == k)
+      ++next;
+    else
+      left.push_back(triangles[k]);
+  }
+  return left;
+}
+
+/// The repeated triangles if the surface is as closed without them, else none: two parts of a surface may share a
+/// triangle, as two boxes that stand on the same ground.
+[[nodiscard]] inline std::vector<std::size_t> needless_repeats(const Triangles& triangles) {
+  std::vector<std::size_t> repeated = repeated_triangles(triangles);
+  if (!repeated.empty() &&
+      count_unbalanced(edge_uses(without(triangles, repeated))) > count_unbalanced(edge_uses(triangles)))
+    repeated.clear();
+  return repeated;
+}
+
+/// Groups of vertices that are joined with each other.
+class VertexGroups {
+ public:
+  explicit VertexGroups(std::size_t vertices) : parent_(vertices) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  [[nodiscard]] Index group(Index v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(Index a, Index b) {
+    a = group(a), b = group(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+/// The triangles of connected parts in which every triangle is there in both senses, as often in one as in the other,
+/// so that the part encloses nothing; in order.
+[[nodiscard]] inline std::vector<std::size_t> double_sided(const Triangles& triangles, std::size_t vertices) {
+  std::map<std::array<Index, 3>, int> net;
+  VertexGroups parts(vertices);
+  const auto sorted = [](std::array<Index, 3> t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  for (const auto& t : triangles) {
+    net[sorted(t)] += turned_to_smallest(t) == sorted(t) ? 1 : -1;
+    parts.join(t[0], t[1]);
+    parts.join(t[0], t[2]);
+  }
+  std::vector<char> encloses(vertices, 0);
+  for (const auto& [t, sum] : net)
+    if (sum != 0) encloses[parts.group(t[0])] = 1;
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (!encloses[parts.group(triangles[k][0])]) found.push_back(k);
+  return found;
+}
+
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+namespace detail {
+
+/// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5).
+[[nodiscard]] inline Vector<double, 3> nearest_on_triangle(const std::array<Vector<double, 3>, 3>& corners,
+                                                           const Vector<double, 3>& x) {
+  using V = Vector<double, 3>;
+  const auto& [a, b, c] = corners;
+  const V ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
+  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx), d6 = ac.dot(cx);
+  if (d1 <= 0 && d2 <= 0) return a;
+  if (d3 >= 0 && d4 <= d3) return b;
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+  const double sum = va + vb + vc;
+  return a + vb / sum * ab + vc / sum * ac;
+}
+
+}  // namespace detail
+
+/// The triangles of a surface in a tree of boxes: how often the surface winds around a point, and how far it is, in a
+/// time that grows with the logarithm of the number of triangles. The winding number (Jacobson et al. 2013) is 1 in a
+/// closed surface, 0 outside, and changes gradually across the holes of an open one. Triangles that are far from the
+/// point act together, as a dipole and its first two moments (Barill et al. 2018): how far is what `accuracy` says, in
+/// radii of their group. Keeps its own copy of the triangles, in double. Calls are safe from several threads.
+class TriangleTree {
+  using V = Vector<double, 3>;
+
+ public:
+  /// @param accuracy  above 1; at infinity nothing is approximated
+  /// Throws `InputError` for a surface without triangles, vertices that are not finite, indices out of range.
+  template <class S>
+  explicit TriangleTree(const SurfaceMesh<S>& mesh, double accuracy = 2) : accuracy_(accuracy) {
+    require(!detail::is_nan(accuracy) && accuracy > 1, "hmps: the accuracy of a tree of triangles is ", accuracy,
+            "; give a number above 1 (2 is the default)");
+    detail::require_triangles(mesh);
+    for (const auto& t : mesh.triangles)
+      triangles_.push_back({mesh.vertices[t[0]].template cast<double>(), mesh.vertices[t[1]].template cast<double>(),
+                            mesh.vertices[t[2]].template cast<double>()});
+    std::vector<std::size_t> order(triangles_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    build(order, 0, order.size());
+    Corners sorted;
+    sorted.reserve(triangles_.size());
+    for (const std::size_t k : order) sorted.push_back(triangles_[k]);
+    triangles_ = std::move(sorted);
+  }
+
+  /// How often the surface winds around `x` (m): the sum of solid angles over 4 pi. On the surface itself the value
+  /// jumps.
+  [[nodiscard]] double winding_number(const V& x) const {
+    double angle = 0;
+    visit([&](const Node& node) {
+      const V to = node.centre - x;
+      const double squared = to.squaredNorm();
+      if (squared > accuracy_ * accuracy_ * node.squared_radius) {
+        angle += node.far_angle(to, squared);
+        return false;
+      }
+      if (node.right == 0)
+        for (std::size_t k = node.begin; k < node.end; ++k)
+          angle += detail::solid_angle(triangles_[k][0] - x, triangles_[k][1] - x, triangles_[k][2] - x);
+      return true;
+    });
+    return angle / (4 * std::numbers::pi);
+  }
+
+  /// The distance in m from `x` (m) to the nearest triangle, exact up to rounding.
+  [[nodiscard]] double distance(const V& x) const {
+    double least = std::numeric_limits<double>::infinity();
+    // The nearer child first; what waits is looked at again when its turn comes.
+    std::array<std::pair<double, std::size_t>, depth> waiting;
+    std::size_t count = 0;
+    waiting[count++] = {nodes_[0].squared_distance(x), 0};
+    while (count > 0) {
+      const auto [bound, at] = waiting[--count];
+      if (bound >= least) continue;
+      const Node& node = nodes_[at];
+      if (node.right == 0) {
+        for (std::size_t k = node.begin; k < node.end; ++k)
+          least = std::min(least, (detail::nearest_on_triangle(triangles_[k], x) - x).squaredNorm());
+        continue;
+      }
+      std::pair left(nodes_[at + 1].squared_distance(x), at + 1);
+      std::pair right(nodes_[node.right].squared_distance(x), node.right);
+      if (left < right) std::swap(left, right);
+      waiting[count++] = left;
+      waiting[count++] = right;
+    }
+    return std::sqrt(least);
+  }
+
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
+
+ private:
+  using Corners = std::vector<std::array<V, 3>>;
+  /// Halving 2^32 triangles gives 32 levels; each leaves one node to wait.
+  static constexpr std::size_t depth = 72;
+  static constexpr std::size_t leaf = 4;
+
+  /// The group of triangles of a node. Its solid angle at a distance is that of its moments about the centre: the
+  /// surface integral of area vector . g(centre - x + d) with g(r) = r / |r|^3, developed to the second order in d.
+  struct Node {
+    V lower, upper;            ///< box of the triangles in m
+    V centre;                  ///< mean of the triangles' centres by area in m
+    V area;                    ///< sum of the triangles' area vectors in m2
+    Matrix<double, 3> moment;  ///< sum of area vector (x) (centre of the triangle - centre) in m3
+    double squared_radius;     ///< of the triangles' corners about the centre in m2
+    std::size_t begin, end;    ///< the triangles
+    std::size_t right = 0;     ///< second child; the first one follows the node; 0 for a leaf
+
+    std::array<double, 10> cubic;  ///< sum of n_i d_j d_k in m4: xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
+    V traces;                      ///< sum of n (d . d) + 2 d (n . d) in m4
+
+    /// The solid angle seen from a point from which the centre lies at `r`.
+    [[nodiscard]] double far_angle(const V& r, double squared) const {
+      const double x = r[0], y = r[1], z = r[2];
+      const auto& c = cubic;
+      const double third = x * (x * (c[0] * x + c[3] * y + c[4] * z) + y * (c[5] * y + c[9] * z) + c[7] * z * z) +
+                           y * (y * (c[1] * y + c[6] * z) + c[8] * z * z) + c[2] * z * z * z;
+      const double cubed = squared * std::sqrt(squared);
+      return (r.dot(area) + moment.trace() - 3 * r.dot(moment * r) / squared +
+              (7.5 * third / squared - 1.5 * r.dot(traces)) / squared) /
+             cubed;
+    }
+    [[nodiscard]] double squared_distance(const V& x) const {
+      return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).squaredNorm();
+    }
+  };
+
+  /// Calls `enter(node)` from the root on, and for the children of those for which it holds.
+  template <class Enter>
+  void visit(Enter&& enter) const {
+    std::array<std::size_t, depth> waiting;
+    std::size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+      const std::size_t at = waiting[--count];
+      const Node& node = nodes_[at];
+      if (!enter(node) || node.right == 0) continue;
+      waiting[count++] = node.right;
+      waiting[count++] = at + 1;
+    }
+  }
+
+  [[nodiscard]] static V centre_of(const std::array<V, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
+
+  /// A node without children for the triangles `order[begin, end)`.
+  [[nodiscard]] Node summed(const std::vector<std::size_t>& order, std::size_t begin, std::size_t end) const {
+    Node node{};
+    node.begin = begin, node.end = end;
+    node.lower = node.upper = triangles_[order[begin]][0];
+    V weighted = V::Zero();
+    double total = 0;
+    node.area.setZero();
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& t = triangles_[order[k]];
+      for (const V& corner : t) {
+        node.lower = node.lower.cwiseMin(corner);
+        node.upper = node.upper.cwiseMax(corner);
+      }
+      const V area = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+      node.area += area;
+      weighted += area.norm() * centre_of(t);
+      total += area.norm();
+    }
+    node.centre = total > 0 ? V(weighted / total) : V((node.lower + node.upper) / 2);
+    node.moment.setZero();
+    node.traces.setZero();
+    std::array<Matrix<double, 3>, 3> second{Matrix<double, 3>::Zero(), Matrix<double, 3>::Zero(),
+                                            Matrix<double, 3>::Zero()};
+    node.squared_radius = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& t = triangles_[order[k]];
+      const V area = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+      const V sum = 3 * (centre_of(t) - node.centre);
+      node.moment += area * sum.transpose() / 3;
+      // The mean of d d^T over a triangle, by its corners.
+      Matrix<double, 3> mean = sum * sum.transpose() / 12;
+      for (const V& corner : t) mean += (corner - node.centre) * (corner - node.centre).transpose() / 12;
+      node.traces += area * mean.trace() + 2 * mean * area;
+      for (std::size_t i = 0; i < 3; ++i) second[i] += area[static_cast<Eigen::Index>(i)] * mean;
+      for (const V& corner : t)
+        node.squared_radius = std::max(node.squared_radius, (corner - node.centre).squaredNorm());
+    }
+    const auto& [X, Y, Z] = second;
+    node.cubic = {X(0, 0),
+                  Y(1, 1),
+                  Z(2, 2),
+                  Y(0, 0) + 2 * X(0, 1),
+                  Z(0, 0) + 2 * X(0, 2),
+                  X(1, 1) + 2 * Y(0, 1),
+                  Z(1, 1) + 2 * Y(1, 2),
+                  X(2, 2) + 2 * Z(0, 2),
+                  Y(2, 2) + 2 * Z(1, 2),
+                  2 * (X(1, 2) + Y(0, 2) + Z(0, 1))};
+    return node;
+  }
+
+  void build(std::vector<std::size_t>& order, std::size_t begin, std::size_t end) {
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = order.begin() + static_cast<std::ptrdiff_t>(end);
+    // Sums must not depend on how a library divides.
+    std::sort(first, last);
+    const std::size_t at = nodes_.size();
+    nodes_.push_back(summed(order, begin, end));
+    if (end - begin <= leaf) return;
+    Eigen::Index axis = 0;
+    (nodes_[at].upper - nodes_[at].lower).maxCoeff(&axis);
+    const std::size_t middle = (begin + end) / 2;
+    std::nth_element(
+        first, order.begin() + static_cast<std::ptrdiff_t>(middle), last, [&](std::size_t a, std::size_t b) {
+          return std::pair(centre_of(triangles_[a])[axis], a) < std::pair(centre_of(triangles_[b])[axis], b);
+        });
+    build(order, begin, middle);
+    nodes_[at].right = nodes_.size();
+    build(order, middle, end);
+  }
+
+  double accuracy_;
+  Corners triangles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace hmps::inline HMPS_ABI

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/shapes/triangle_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "surfaces.hpp"
+
+namespace {
+
+using V = hmps::Vector<double, 3>;
+using namespace hmps_test;
+
+std::vector<V> random_points(std::size_t n, double reach) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-reach, reach);
+  std::vector<V> points(n);
+  for (V& p : points) p = V(uniform(random), uniform(random), uniform(random));
+  return points;
+}
+
+/// The distance to a triangle by halving it: an upper bound that exceeds the distance by 2^-levels of its size at most.
+double sampled_distance(const std::array<V, 3>& t, const V& x, int n) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      least = std::min(least, ((t[0] * i + t[1] * j + t[2] * (n - i - j)) / n - x).norm());
+  return least;
+}
+
+TEST(TriangleTree, NearestPointsOfATriangleAreNearest) {
+  const auto points = random_points(300, 2);
+  for (std::size_t k = 0; k + 3 < points.size(); k += 4) {
+    const std::array<V, 3> t{points[k], points[k + 1], points[k + 2]};
+    const V x = points[k + 3], nearest = hmps::detail::nearest_on_triangle(t, x);
+    // Samples lie within size / n of any point of the triangle.
+    const double slack = 2 * (t[1] - t[0]).norm() / 60 + 2 * (t[2] - t[0]).norm() / 60;
+    EXPECT_LE((nearest - x).norm(), sampled_distance(t, x, 60) + 1e-12);
+    EXPECT_GE((nearest - x).norm(), sampled_distance(t, x, 60) - slack);
+  }
+}
+
+TEST(TriangleTree, DistanceIsThatOfAllTriangles) {
+  const auto torus = torus_surface<double>(2, 0.5, 40, 24);
+  const hmps::TriangleTree tree(torus);
+  EXPECT_EQ(tree.size(), torus.triangles.size());
+  for (const V& x : random_points(200, 4)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& t : torus.triangles)
+      least = std::min(
+          least,
+          (hmps::detail::nearest_on_triangle({torus.vertices[t[0]], torus.vertices[t[1]], torus.vertices[t[2]]}, x) - x)
+              .squaredNorm());
+    EXPECT_EQ(tree.distance(x), std::sqrt(least));
+  }
+}
+
+TEST(TriangleTree, WindsOnceAroundTheInside) {
+  const auto torus = torus_surface<double>(2, 0.5, 40, 24);
+  const hmps::TriangleTree tree(torus), exact(torus, std::numeric_limits<double>::infinity());
+  for (const V& x : random_points(500, 3)) {
+    const double whole = hmps::inside(torus, x) ? 1 : 0;
+    EXPECT_NEAR(exact.winding_number(x), whole, 1e-12);
+    // What is left out is of the third order, 2^-3 of a group's share; far from what would move the limit at 1/2.
+    EXPECT_NEAR(tree.winding_number(x), whole, 0.02);
+  }
+  EXPECT_NEAR(hmps::TriangleTree(reversed(torus)).winding_number(V(2, 0, 0)), -1, 0.02);
+}
+
+TEST(TriangleTree, ApproximatesBetterWithAccuracy) {
+  auto open = sphere_surface<double>(V(0, 0, 0), 1, 4);
+  std::erase_if(open.triangles, [&](const auto& t) { return open.vertices[t[0]][2] > 0.3; });
+  const hmps::TriangleTree exact(open, std::numeric_limits<double>::infinity());
+  const auto worst = [&](double accuracy) {
+    const hmps::TriangleTree tree(open, accuracy);
+    double result = 0;
+    for (const V& x : random_points(500, 1.5))
+      result = std::max(result, std::abs(tree.winding_number(x) - exact.winding_number(x)));
+    return result;
+  };
+  // The first term that is left out falls as the cube of the accuracy: by 64 here, of which half is asked for.
+  const double coarse = worst(2);
+  EXPECT_GT(coarse, 0);
+  EXPECT_LT(coarse, 0.02);
+  EXPECT_LT(worst(8), coarse / 32);
+}
+
+TEST(TriangleTree, RefusesWhatIsNoSurface) {
+  auto box = box_surface<double>(V(0, 0, 0), V(1, 1, 1));
+  EXPECT_THROW((void)hmps::TriangleTree(box, 1), hmps::InputError);
+  EXPECT_THROW((void)hmps::TriangleTree(box, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);
+  box.triangles.push_back({0, 1, 99});
+  EXPECT_THROW((void)hmps::TriangleTree(box), hmps::InputError);
+  EXPECT_THROW((void)hmps::TriangleTree(hmps::SurfaceMesh<double>{}), hmps::InputError);
+}
+
+}  // namespace
