@@ -7,8 +7,8 @@
 
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/laws/law.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/laws/law.hpp"
 
 /// What a particle costs: floating-point operations and bytes moved, counted from the equations and the arrays, not
 /// measured. A multiplication, an addition, a division and a root are one operation each, a multiply-add two. They are

@@ -4,9 +4,9 @@
 #include <cstdlib>
 
 #include "body.hpp"
-#include "hmps/terms/elastic.hpp"
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/terms/elastic.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "hmps/shapes/implicit.hpp"
 #include "hmps/particles/lattice.hpp"
+#include "hmps/shapes/implicit.hpp"
 #include "make_bonds.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 
 #include "../../roofline.hpp"
 #include "../../support.hpp"
-#include "hmps/laws/mooney_rivlin.hpp"
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
 
 /// What the benchmarks of forces share.
 namespace bench {

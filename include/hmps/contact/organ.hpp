@@ -65,9 +65,9 @@ template <class T, int D>
   grid.build(attachment.size(), static_cast<S>(distance), [&](std::size_t k) { return reference[attachment[k]]; });
   std::vector<Index> out;
   for (const Index i : slaves) {
-    bool near = false;
-    grid.visit(reference[i], static_cast<S>(distance), [&](Index, S) { near = true; });
-    if (near) out.push_back(i);
+    bool nearby = false;
+    grid.visit(reference[i], static_cast<S>(distance), [&](Index, S) { nearby = true; });
+    if (nearby) out.push_back(i);
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());

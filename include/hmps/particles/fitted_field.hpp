@@ -106,12 +106,12 @@ class FittedField {
   /// The layers at a place: of the mean thickness behind the points of the surface around it.
   [[nodiscard]] Layering layering(const Point& x) const {
     if (-(*this)(x) >= most_layers * spacing_ / 2) return {most_layers * spacing_, spacing_, most_layers, true};
-    const double near = 1.5 * spacing_, far = 13 * spacing_;
+    const double nearby = 1.5 * spacing_, farthest = 13 * spacing_;
     double weight = 0, sum = 0, least = 0;
-    for (double radius = near; radius < far && !(weight > 0); radius *= 2) {
+    for (double radius = nearby; radius < farthest && !(weight > 0); radius *= 2) {
       grid_.visit(x, radius, [&](Index k, double squared) {
         const SurfacePoint<D>& point = surface_[k];
-        if (radius > near) least = std::max(least, point.least);
+        if (radius > nearby) least = std::max(least, point.least);
         if (!(point.thickness > 0)) return;
         const double w = 1 - std::sqrt(squared) / radius;
         weight += w * w;

@@ -90,10 +90,10 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
   const double limit = std::cos(56 * std::numbers::pi / 180);
   // Between the neighbours across the diagonal of a cell, at 1.73, and the next ones, at 2.
-  const NeighbourList near = find_neighbours(points, static_cast<S>(1.8 * spacing), execute);
+  const NeighbourList nearby = find_neighbours(points, static_cast<S>(1.8 * spacing), execute);
   const auto for_each = [&](std::size_t i, auto&& visit) {
     const Vector<double, D> here = points[i].template cast<double>();
-    for (const Index j : near[i])
+    for (const Index j : nearby[i])
       if (bonded(i, static_cast<std::size_t>(j))) visit(j, Vector<double, D>(points[j].template cast<double>() - here));
   };
   std::vector<char> layer(points.size(), 0);

@@ -73,13 +73,13 @@ template <class S>
   result.source = mesh.source;
   constexpr Index none = static_cast<Index>(-1);
   std::vector<Index> name(mesh.vertices.size(), none);
-  std::vector<Index> near;
+  std::vector<Index> nearby;
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
     if (name[k] != none) continue;
     name[k] = static_cast<Index>(result.vertices.size());
     result.vertices.push_back(mesh.vertices[k]);
-    search(mesh.vertices[k], reach, near);
-    for (const Index j : near)
+    search(mesh.vertices[k], reach, nearby);
+    for (const Index j : nearby)
       if (name[j] == none) name[j] = name[k];
   }
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {

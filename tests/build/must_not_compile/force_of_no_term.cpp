@@ -2,8 +2,8 @@
 // expect: a term of internal_force needs couple(particles, coupling), damping(bonds) or pressure(particles, theta)
 #include <vector>
 
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
 
 struct Gravity {};
 

@@ -2,8 +2,8 @@
 // expect: deleted function
 #include <vector>
 
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
 #include "hmps/terms/artificial.hpp"
 
 int main() {

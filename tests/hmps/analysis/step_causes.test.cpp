@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "hmps/terms/elastic.hpp"
-#include "hmps/laws/mooney_rivlin.hpp"
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 #include "reference/scenes.hpp"
 

@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "hmps/force/deformation_gradient.hpp"
-#include "hmps/terms/elastic.hpp"
-#include "hmps/laws/mooney_rivlin.hpp"
-#include "hmps/laws/saint_venant_kirchhoff.hpp"
-#include "hmps/force/internal_force.hpp"
+#include "hmps/analysis/probed_scene.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
-#include "hmps/analysis/probed_scene.hpp"
+#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/laws/saint_venant_kirchhoff.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
 namespace {

@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "../../reference/scenes.hpp"
-#include "hmps/core/executor.hpp"
-#include "hmps/force/deformation_gradient.hpp"
-#include "hmps/terms/elastic.hpp"
-#include "hmps/laws/mooney_rivlin.hpp"
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
 /// What every executor must do.

@@ -13,10 +13,10 @@
 
 #include "../../reference/plain.hpp"
 #include "../../reference/scenes.hpp"
-#include "hmps/core/view.hpp"
-#include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
 
 /// What the tests of the force terms share: materials that differ from particle to particle, and
 /// the plain equations with them.

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "equations.hpp"
-#include "hmps/terms/elastic.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
 /// The tests of the three forces together, for both models of bonds and both scalars; one

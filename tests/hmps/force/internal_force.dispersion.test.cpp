@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "../../reference/scenes.hpp"
-#include "hmps/core/view.hpp"
-#include "hmps/terms/elastic.hpp"
-#include "hmps/laws/linear_elastic.hpp"
-#include "hmps/force/internal_force.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/linear_elastic.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 
 namespace {
 

@@ -64,8 +64,6 @@ TYPED_TEST(Slots, ArraysHandOutWhatWasKept) {
       EXPECT_EQ(arrays(c, s), static_cast<TypeParam>(mark(c, s / width == 2 ? s - width : s)));
 }
 
-TYPED_TEST(Slots, NumbersThatNoForceNeedsTakeNoMemory) {
-  EXPECT_EQ((hmps::SlotArrays<TypeParam, 0>(40).bytes()), 0u);
-}
+TYPED_TEST(Slots, NumbersThatNoForceNeedsTakeNoMemory) { EXPECT_EQ((hmps::SlotArrays<TypeParam, 0>(40).bytes()), 0u); }
 
 }  // namespace

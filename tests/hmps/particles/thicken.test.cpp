@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "hmps/shapes/combine.hpp"
 #include "hmps/particles/lattice.hpp"
+#include "hmps/shapes/combine.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "../force/equations.hpp"
 #include "../bonds/bonds_of_a_scene.hpp"
+#include "../force/equations.hpp"
 #include "hmps/force/internal_force.hpp"
 
 namespace {

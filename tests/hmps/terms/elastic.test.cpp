@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
-#include "../force/equations.hpp"
 #include "../bonds/bonds_of_a_scene.hpp"
-#include "hmps/laws/linear_elastic.hpp"
+#include "../force/equations.hpp"
 #include "hmps/force/internal_force.hpp"
+#include "hmps/laws/linear_elastic.hpp"
 
 namespace {
 

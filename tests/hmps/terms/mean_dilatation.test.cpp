@@ -11,9 +11,9 @@
 
 #include "../force/equations.hpp"
 #include "hmps/diagnostics/energy.hpp"
-#include "hmps/terms/elastic.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "sheets.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hmps/terms/elastic.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
 #include "sheets.hpp"
 
 namespace {

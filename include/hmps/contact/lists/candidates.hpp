@@ -57,10 +57,10 @@ template <class T, int D>
 
 /// Which slaves may meet which masters. The broad-phase list holds the pairs within reach plus `margin`, in rows
 /// of one slave each; a grid search makes it, whenever organs have moved or a reach has grown by that
-/// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how far those of a row
-/// may be off that before its slave could touch. From then on every call looks how far each particle truly is off, and
-/// wakes the rows for which that is too far; what is awake makes up the list that is evaluated. A check is due when
-/// the rows woken since the last one have cost as much as it does, and after `longest_interval` calls (fewer
+/// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how too_far those of a
+/// row may be off that before its slave could touch. From then on every call looks how too_far each particle truly is
+/// off, and wakes the rows for which that is too too_far; what is awake makes up the list that is evaluated. A check is
+/// due when the rows woken since the last one have cost as much as it does, and after `longest_interval` calls (fewer
 /// where much is awake or moves fast), for deformation gradients change too.
 ///
 /// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when
@@ -101,7 +101,7 @@ class Candidates {
   void refresh() { built_ = false; }
 
   /// The position of particle `i` of the view `x`, in m from the origin of the lists. Where `S` is narrower than the
-  /// scalars of `x` that is rounded after the subtraction, so that it is as sharp far from zero as near it.
+  /// scalars of `x` that is rounded after the subtraction, so that it is as sharp too_far from zero as near it.
   template <class X>
   [[nodiscard]] HMPS_INLINE Point place_of(const X& x, std::size_t i) const {
     using Wide = typename X::Scalar;
@@ -137,7 +137,7 @@ class Candidates {
   };
   struct Watch {  // of particles
     std::size_t exceeding;
-    bool far, late;
+    bool too_far, late;
     Index flat = none;  // the first of those without an inverse of F
   };
   using Row = typename BroadPhase<S, D>::Row;

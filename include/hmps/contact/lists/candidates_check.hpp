@@ -181,15 +181,15 @@ template <class S, int D, Metaball Ball>
 template <class X>
 void Candidates<S, D, Ball>::choose_origin(const X& x) {
   if constexpr (sizeof(typename X::Scalar) > sizeof(S)) {
-    const double far = static_cast<double>(normal_density_.spacing()) * 1.25e-4 /
-                       static_cast<double>(std::numeric_limits<S>::epsilon());
+    const double reach = static_cast<double>(normal_density_.spacing()) * 1.25e-4 /
+                         static_cast<double>(std::numeric_limits<S>::epsilon());
     Point low = Point::Constant(std::numeric_limits<S>::max()), high = -low;
     for (const Point& place : place_) {
       low = low.cwiseMin(place);
       high = high.cwiseMax(place);
     }
     const Vector<double, D> middle = 0.5 * (low.template cast<double>() + high.template cast<double>());
-    if (place_.empty() || middle.cwiseAbs().maxCoeff() <= far) return;
+    if (place_.empty() || middle.cwiseAbs().maxCoeff() <= reach) return;
     origin_ += middle;
     for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = place_of(x, particle()[i]);
   }

@@ -104,12 +104,12 @@ bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
     for (std::size_t i = q * chunk; i < std::min(particle().size(), (q + 1) * chunk); ++i)
       if (const S moved = moved_squared(i); !(moved <= allowance_[i])) {
         exceeding_[q * chunk + found.exceeding++] = static_cast<Index>(i);
-        found.far = found.far || !(moved <= bound_[i] * bound_[i]);
+        found.too_far = found.too_far || !(moved <= bound_[i] * bound_[i]);
       }
     watches_[q] = found;
   });
   for (const Watch& found : watches_)
-    if (found.far) return false;
+    if (found.too_far) return false;
   for (std::size_t q = 0; q < watches_.size(); ++q)
     for (std::size_t k = q * chunk; k < q * chunk + watches_[q].exceeding; ++k)
       wake(exceeding_[k], moved_squared(exceeding_[k]));
