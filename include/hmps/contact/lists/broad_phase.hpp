@@ -165,7 +165,7 @@ void BroadPhase<S, D>::append(std::size_t side, const Part& part, const std::vec
   const std::size_t slaves = part.slaves.size(), first = masters_.size();
   std::vector<std::size_t> count(slaves + 1, 0);
   for (const auto& list : found)
-    for (const Near& nearby : list) ++count[near.slave + 1];
+    for (const Near& nearby : list) ++count[nearby.slave + 1];
   for (std::size_t k = 0; k < slaves; ++k) {
     if (count[k + 1] > 0)
       rows_.push_back({part.slaves[k], static_cast<std::uint32_t>(side), part.slots[k],
@@ -174,7 +174,7 @@ void BroadPhase<S, D>::append(std::size_t side, const Part& part, const std::vec
   }
   masters_.resize(first + count.back());
   for (const auto& list : found)
-    for (const Near& nearby : list) masters_[first + count[near.slave]++] = near.master;
+    for (const Near& nearby : list) masters_[first + count[nearby.slave]++] = nearby.master;
 }
 
 template <class S, int D>
