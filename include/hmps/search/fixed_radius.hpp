@@ -53,7 +53,9 @@ struct PointSet {
 template <class S>
 class WithinRadius {
  public:
-  using DistanceType = S;  ///< nanoflann 1.6 and later ask for it, and for `sort`.
+  // Versions of nanoflann after 1.4 ask for these, and for `sort`.
+  using DistanceType = S;
+  using IndexType = Index;
   WithinRadius(S squared_radius, std::vector<Index>& found) : squared_radius_(squared_radius), found_(found) {}
   [[nodiscard]] bool addPoint(S squared_distance, Index index) {
     if (squared_distance <= squared_radius_) found_.push_back(index);
@@ -67,7 +69,7 @@ class WithinRadius {
   [[nodiscard]] bool full() const { return true; }
   [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::size_t size() const { return found_.size(); }
-  void sort() {}  ///< `FixedRadiusSearch` sorts by index, whatever nanoflann asks for.
+  void sort() {}  ///< `FixedRadiusSearch` sorts by index.
 
  private:
   S squared_radius_;
@@ -78,6 +80,8 @@ class WithinRadius {
 template <class S>
 class CountWithin {
  public:
+  using DistanceType = S;
+  using IndexType = Index;
   explicit CountWithin(S squared_radius) : within_(squared_radius, none_), squared_radius_(squared_radius) {}
   [[nodiscard]] bool addPoint(S squared_distance, Index) {
     count_ += squared_distance <= squared_radius_ ? 1 : 0;
@@ -85,7 +89,9 @@ class CountWithin {
   }
   [[nodiscard]] S worstDist() const { return within_.worstDist(); }
   [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
   [[nodiscard]] std::size_t size() const { return count_; }
+  void sort() {}
 
  private:
   std::vector<Index> none_;
