@@ -3,6 +3,7 @@
 # pinned download. The download is only unpacked, never configured, so that no option, test or
 # install rule of theirs gets into the user's build. HMPS_BUNDLED lists what was downloaded.
 set(HMPS_BUNDLED "")
+include(${CMAKE_CURRENT_LIST_DIR}/find.cmake)
 
 # hmps_archive(<package> <url> <variable>): downloads the archive, once, and ends with what to do about it where that is not
 # possible: FetchContent would try for more than a minute and then say no word of what is missing.
@@ -27,12 +28,16 @@ endfunction()
 
 # hmps_dependency(<package> <target> <version> <folder of the headers in the archive> <url> <hash>)
 function(hmps_dependency package target version folder url hash)
+  set(HMPS_${package}_VERSION ${version} PARENT_SCOPE)
   if(TARGET ${target})
     return()
   endif()
-  find_package(${package} ${version} CONFIG QUIET)
+  hmps_find(${package} ${target} ${version})
   if(TARGET ${target})
-    set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)  # seen by a parent project as well
+    get_target_property(imported ${target} IMPORTED)
+    if(imported)
+      set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)  # seen by a parent project as well
+    endif()
     message(STATUS "hmps: ${package} ${${package}_VERSION} found in ${${package}_DIR}")
     return()
   endif()

@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: MIT
-# Installs the headers and the CMake package. What was downloaded for want of an installed package
+# Installs the headers, the CMake package and the pkg-config file. What was downloaded for want of an installed package
 # is installed beside it, so that the package also works where Eigen or nanoflann is still missing.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(HMPS_CMAKE_DIR ${CMAKE_INSTALL_DATADIR}/cmake/hmps)
 set(HMPS_BUNDLE_DIR ${CMAKE_INSTALL_DATADIR}/hmps/third_party)
 
-install(TARGETS hmps EXPORT hmpsTargets FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS hmps EXPORT hmpsTargets)
+install(DIRECTORY include/hmps DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(EXPORT hmpsTargets NAMESPACE hmps:: DESTINATION ${HMPS_CMAKE_DIR})
+# For parents that export() a target of theirs from the build tree. A parent's own Eigen would have to be in such a set too.
+get_target_property(HMPS_EIGEN_IS_PACKAGE Eigen3::Eigen IMPORTED)
+get_target_property(HMPS_NANOFLANN_IS_PACKAGE nanoflann::nanoflann IMPORTED)
+if(HMPS_EIGEN_IS_PACKAGE AND HMPS_NANOFLANN_IS_PACKAGE)
+  export(EXPORT hmpsTargets NAMESPACE hmps::)
+endif()
 
 configure_package_config_file(
   cmake/hmpsConfig.cmake.in hmpsConfig.cmake
@@ -18,7 +24,27 @@ configure_package_config_file(
 # Before 1.0 a new minor version may change the interface.
 write_basic_package_version_file(hmpsConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hmpsConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/hmpsConfigVersion.cmake
-        DESTINATION ${HMPS_CMAKE_DIR})
+              cmake/build_type.cmake cmake/find.cmake DESTINATION ${HMPS_CMAKE_DIR})
+
+# hmps.pc tells folders from where it lies, so that the installed tree can be moved.
+set(HMPS_PC_DIR ${CMAKE_INSTALL_DATADIR}/pkgconfig)
+file(RELATIVE_PATH HMPS_PC_PREFIX ${CMAKE_INSTALL_FULL_DATADIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH HMPS_PC_INCLUDE ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+file(RELATIVE_PATH HMPS_PC_BUNDLE ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_DATADIR}/hmps/third_party)
+string(REGEX REPLACE "/$" "" HMPS_PC_PREFIX "${HMPS_PC_PREFIX}")
+set(HMPS_PC_REQUIRES "")
+set(HMPS_PC_CFLAGS "")
+foreach(package IN ITEMS Eigen3 nanoflann)
+  if(package IN_LIST HMPS_BUNDLED)
+    string(APPEND HMPS_PC_CFLAGS " -I\${prefix}/${HMPS_PC_BUNDLE}/${package}")
+  else()
+    string(TOLOWER ${package} module)
+    string(APPEND HMPS_PC_REQUIRES " ${module} >= ${HMPS_${package}_VERSION}")
+  endif()
+endforeach()
+configure_file(cmake/hmps.pc.in hmps.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hmps.pc DESTINATION ${HMPS_PC_DIR})
+
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hmps)
 
 if("Eigen3" IN_LIST HMPS_BUNDLED)

@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: MIT
 # The same program for every way to get the package, and what the package must not do to its user.
-add_executable(consumer ${PROGRAM}/main.cpp ${PROGRAM}/second.cpp)
+if(ALL_HEADERS)
+  add_executable(consumer ${PROGRAM}/main.cpp ${PROGRAM}/second.cpp)
+else()
+  add_executable(consumer ${PROGRAM}/quick.cpp)
+endif()
 target_link_libraries(consumer PRIVATE hmps::hmps)
 
 foreach(property IN ITEMS INTERFACE_COMPILE_OPTIONS INTERFACE_COMPILE_DEFINITIONS INTERFACE_LINK_OPTIONS
@@ -15,6 +19,7 @@ if(NOT features STREQUAL "cxx_std_20")
   message(FATAL_ERROR "hmps::hmps asks for ${features}")
 endif()
 get_target_property(libraries hmps::hmps INTERFACE_LINK_LIBRARIES)
+string(REGEX REPLACE "\\$<BUILD_INTERFACE:([^>]*)>" "\\1" libraries "${libraries}")
 if(NOT libraries STREQUAL "Eigen3::Eigen;nanoflann::nanoflann")
   message(FATAL_ERROR "hmps::hmps links ${libraries}")
 endif()
