@@ -17,6 +17,19 @@ if(HMPS_SANITIZE)
   endif()
 endif()
 
+# What the small examples are compiled with besides: users have such flags and include these headers with -I, so that a
+# warning in the library is theirs.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  set(HMPS_USERS_WARNINGS -Wsign-conversion -Wdouble-promotion -Wuseless-cast -Wold-style-cast -Wnull-dereference
+                          -Wextra-semi -Wzero-as-null-pointer-constant -Wundef -Wcast-qual -Wcast-align
+                          -Wnon-virtual-dtor -Woverloaded-virtual -Wredundant-decls -Wduplicated-cond -Wduplicated-branches
+                          -Wlogical-op -Wformat=2)
+else()
+  set(HMPS_USERS_WARNINGS -Wsign-conversion -Wdouble-promotion -Wold-style-cast -Wnull-dereference -Wextra-semi
+                          -Wzero-as-null-pointer-constant -Wundef -Wcast-qual -Wcast-align -Wnon-virtual-dtor
+                          -Woverloaded-virtual -Wcomma -Wshadow-all -Wdeprecated -Wunreachable-code -Wformat=2)
+endif()
+
 # For what would run for minutes under the sanitizers without optimisation. All else together takes longer to compile
 # than to run, and with optimisation two and a half times as long.
 add_library(hmps_long_running INTERFACE)

@@ -149,13 +149,13 @@ class BondList : public Blocks<K, D> {
    private:
     const Lanes<K>& weights_;
     std::ptrdiff_t first_, second_;
-    Lanes<K> r0_[D];
+    Lanes<K> r0_[std::size_t{D}];
   };
 
   /// Calls `visit(row)` for each row of bonds of `block`: those that are not split, then the others.
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
-    Lanes<K> own[D];
+    Lanes<K> own[std::size_t{D}];
     for (int c = 0; c < D; ++c) own[c] = load(places_.slots(*this, c) + block * width);
     const Group &group = groups_[block], &next = groups_[block + 1];
     const Lanes<K>* weights = weights_.data() + group.row;

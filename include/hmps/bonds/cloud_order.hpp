@@ -21,6 +21,9 @@ namespace hmps::inline HMPS_ABI::detail {
 /// are given counts only where the first axis would do as well as another, or two positions are the same.
 template <int D>
 struct CloudOrder {
+  template <class Number>
+  using PerAxis = std::array<Number, std::size_t{D}>;
+
   std::vector<Index> order;  ///< The particles, one after the other.
 
   /// Of particles at `reference` (m, finite), `spacing` (m) apart or so.
@@ -29,8 +32,8 @@ struct CloudOrder {
     const std::size_t n = reference.size();
     std::iota(order.begin(), order.end(), Index{0});
     if (n == 0) return;
-    std::array<std::vector<std::int32_t>, D> cell;
-    std::array<std::int32_t, D> extent{};
+    PerAxis<std::vector<std::int32_t>> cell;
+    PerAxis<std::int32_t> extent{};
     for (int c = 0; c < D; ++c) {
       std::vector<std::int32_t>& cells = cell[static_cast<std::size_t>(c)];
       cells.resize(n);
@@ -42,7 +45,7 @@ struct CloudOrder {
       const auto [low, high] = std::minmax_element(cells.begin(), cells.end());
       extent[static_cast<std::size_t>(c)] = *high - *low;
     }
-    const std::array<int, D> axis = axes(cell, extent);
+    const PerAxis<int> axis = axes(cell, extent);
     const int along = axis[D - 1];
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       for (std::size_t d = 0; d + 1 < D; ++d) {
@@ -72,10 +75,10 @@ struct CloudOrder {
   /// Rods along the axis that makes the fewest of them, layers across the longest of the other axes. Where nothing
   /// else tells one from another, rods lie as most particles follow each other, along the first axis or the last, so
   /// that the sweeps read the user's arrays as they are.
-  [[nodiscard]] static std::array<int, D> axes(const std::array<std::vector<std::int32_t>, D>& cell,
-                                               const std::array<std::int32_t, D>& extent) {
+  [[nodiscard]] static PerAxis<int> axes(const PerAxis<std::vector<std::int32_t>>& cell,
+                                         const PerAxis<std::int32_t>& extent) {
     const std::size_t n = cell[0].size();
-    std::array<std::size_t, D> rods{};
+    PerAxis<std::size_t> rods{};
     std::vector<std::int64_t> keys(n);
     for (std::size_t along = 0; along < D; ++along) {
       for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +93,7 @@ struct CloudOrder {
     for (std::size_t d = D; d-- > 0;)
       if (rods[d] < rods[along]) along = d;
     if (rods[0] == rods[along] && first_axis_is_fastest(cell)) along = 0;
-    std::array<int, D> axis;
+    PerAxis<int> axis;
     std::iota(axis.begin(), axis.end(), 0);
     std::swap(axis[along], axis[D - 1]);
     std::sort(axis.begin(), axis.end() - 1, [&](int a, int b) {
@@ -101,7 +104,7 @@ struct CloudOrder {
   }
 
   /// Whether most particles lie beside the one before them along the first axis.
-  [[nodiscard]] static bool first_axis_is_fastest(const std::array<std::vector<std::int32_t>, D>& cell) {
+  [[nodiscard]] static bool first_axis_is_fastest(const PerAxis<std::vector<std::int32_t>>& cell) {
     std::size_t follow = 0;
     for (std::size_t i = 1; i < cell[0].size(); ++i) {
       bool same = cell[0][i] == cell[0][i - 1] + 1;

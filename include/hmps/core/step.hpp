@@ -19,6 +19,6 @@ inline void require_step(double dt) {
 template <class T, class U, class Rho>
 void kick(T& v, U f, Rho rho, double dt) {
   using Real = std::common_type_t<T, U>;
-  v = static_cast<T>(Real{v} + static_cast<Real>(dt / static_cast<double>(rho)) * Real{f});
+  v = static_cast<T>(static_cast<Real>(v) + static_cast<Real>(dt / static_cast<double>(rho)) * static_cast<Real>(f));
 }
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -177,7 +177,7 @@ class Blocks : public detail::Anchored {
   std::vector<Index> particle_of_;
   std::vector<Index> slot_of_;
   std::vector<std::uint8_t> consecutive_;
-  SlotArrays<double, D> reference_;
+  SlotArrays<double, std::size_t{D}> reference_;
   Shapes shape_;
   std::vector<Index> shape_block_;  ///< Where in shape_ the lanes of each block are.
   double standard_density_ = 0;

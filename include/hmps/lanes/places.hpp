@@ -31,7 +31,7 @@ class Places {
     if constexpr (fixed) {
       const double unit = std::ldexp(1.0, std::ilogb(radius) - 29);
       unit_ = static_cast<K>(unit);
-      positions_ = SlotArrays<K, D>(blocks.slot_count());
+      positions_ = SlotArrays<K, std::size_t{D}>(blocks.slot_count());
       for (int c = 0; c < D; ++c)
         for (std::size_t s = 0; s < blocks.slot_count(); ++s) {
           const double place = std::remainder(std::nearbyint(blocks.reference_slots(c)[s] / unit), 0x1p32);
@@ -86,7 +86,7 @@ class Places {
   [[nodiscard]] std::size_t bytes() const { return positions_.bytes(); }
 
  private:
-  SlotArrays<K, fixed ? D : 0> positions_;
+  SlotArrays<K, std::size_t{fixed ? D : 0}> positions_;
   K unit_ = 0;
 };
 

@@ -81,7 +81,10 @@ template <class Field, class Cloud, class E>
     owner[k] = nobody;
     for (double radius = std::min(l0, farthest); owner[k] == nobody; radius = std::min(2 * radius, farthest)) {
       grid.visit(samples[k].place, radius, [&](Index i, double squared) {
-        if (squared < least || (squared == least && i < owner[k])) least = squared, owner[k] = i;
+        if (squared < least || (squared == least && i < owner[k])) {
+          least = squared;
+          owner[k] = i;
+        }
       });
       if (radius >= farthest) break;
     }

@@ -50,7 +50,7 @@ class FittedCloud {
       layer[k] = here.spacing < thinnest_ ? -1 : std::min(here.layer(-field_(samples[k].place)), most);
     });
     const double share = std::pow(field_.spacing(), D);
-    std::array<double, most + 1> passed;
+    std::array<double, std::size_t{most + 1}> passed;
     passed.fill(0.5);
     for (std::size_t k = 0; k < samples.size(); ++k) {
       if (layer[k] < 0) continue;

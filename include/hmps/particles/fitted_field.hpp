@@ -129,7 +129,7 @@ class FittedField {
   [[nodiscard]] double spacing() const { return spacing_; }
 
  private:
-  using Cell = std::array<std::int64_t, D>;
+  using Cell = std::array<std::int64_t, std::size_t{D}>;
   struct Found {
     std::vector<Sample<D>> samples;
     std::vector<SurfacePoint<D>> surface;
@@ -208,7 +208,7 @@ void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const 
 template <class F, class S, int D>
 template <class E>
 void FittedField<F, S, D>::sample(const E& execute) {
-  std::array<std::size_t, D> count{};
+  std::array<std::size_t, std::size_t{D}> count{};
   std::size_t total = 1;
   for (int c = 0; c < D; ++c) {
     const double cells = std::ceil((box_.upper[c] - box_.lower[c]) / spacing_);

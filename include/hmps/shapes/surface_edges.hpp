@@ -110,7 +110,8 @@ class VertexGroups {
     return v;
   }
   void join(Index a, Index b) {
-    a = group(a), b = group(b);
+    a = group(a);
+    b = group(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
 

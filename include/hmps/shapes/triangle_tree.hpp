@@ -172,7 +172,8 @@ class TriangleTree {
   /// A node without children for the triangles `order[begin, end)`.
   [[nodiscard]] Node summed(const std::vector<std::size_t>& order, std::size_t begin, std::size_t end) const {
     Node node{};
-    node.begin = begin, node.end = end;
+    node.begin = begin;
+    node.end = end;
     node.lower = node.upper = triangles_[order[begin]][0];
     V weighted = V::Zero();
     double total = 0;

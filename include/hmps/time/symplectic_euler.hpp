@@ -61,7 +61,8 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, cons
   require_apart(x, "positions", v, "velocities");
   detail::require_step(dt);
   execute(x.size(), [&](std::size_t i) {
-    for (int c = 0; c < D; ++c) x(i, c) = static_cast<T>(x(i, c) + v(i, c) * static_cast<Real>(dt));
+    for (int c = 0; c < D; ++c)
+      x(i, c) = static_cast<T>(static_cast<Real>(x(i, c)) + static_cast<Real>(v(i, c)) * static_cast<Real>(dt));
   });
 }
 
