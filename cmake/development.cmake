@@ -41,13 +41,15 @@ endif()
 add_library(hmps_native INTERFACE)
 target_compile_options(hmps_native INTERFACE $<$<BOOL:${HMPS_NATIVE}>:-march=native>)
 
-# hmps_parsed_once(<target>): for what is compiled with hmps_development and hmps_native and nothing else that changes code.
+# hmps_parsed_once(<target>): for what is compiled with hmps_development and hmps_native and nothing else that changes
+# code.
 function(hmps_parsed_once target)
   if(NOT TARGET hmps_parsed)
     set(empty ${PROJECT_BINARY_DIR}/hmps_parsed.cpp)
     file(CONFIGURE OUTPUT ${empty} CONTENT "")
     add_library(hmps_parsed OBJECT ${empty})
     target_link_libraries(hmps_parsed PRIVATE hmps_development hmps_native)
+    target_compile_options(hmps_parsed PRIVATE ${HMPS_USERS_WARNINGS})  # of what is no template, here or nowhere
     target_precompile_headers(hmps_parsed PRIVATE <hmps/hmps.hpp>)
   endif()
   target_precompile_headers(${target} REUSE_FROM hmps_parsed)
