@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/core/language.hpp"  // before anything that an older standard does not know
+
 /// The inline namespace in which the library lies: one name for each kind of object code that must not be mixed. Inline
 /// functions that two translation units share are linked once; were one compiled by g++ and the other by clang++, which
 /// lay out the captures of a closure in another order, or one with -ffast-math, which drops checks, one of the two

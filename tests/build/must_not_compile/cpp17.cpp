@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
 // expect: hmps needs C++20
-// flags: -std=c++17
+// flags: -std=c++17 -Wfatal-errors
 #include "hmps/hmps.hpp"
