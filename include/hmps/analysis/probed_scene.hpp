@@ -16,9 +16,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A force that `stable_step` can probe: `force(x, v, f)` with read-only views of positions (m) and
-/// velocities (m/s) that writes or adds force densities (N/m3) to the view `f`, which comes zeroed.
-/// Satisfied by what `internal_force` returns, or by a lambda that adds several forces.
+/// A force that `stable_step` and `relax` can evaluate. `force(x, v, f)` takes read-only views of positions (m) and
+/// velocities (m/s) and writes or adds force densities (N/m3) to `f`, which is zero on entry. Models: the result of
+/// `internal_force`, a lambda that adds several forces.
 template <class Force, class T, int D>
 concept ProbedForce = requires(Force& force, const VectorView<const T, D>& x, const VectorView<T, D>& f) {
   force(x, x, f);
@@ -26,7 +26,7 @@ concept ProbedForce = requires(Force& force, const VectorView<const T, D>& x, co
 
 namespace detail {
 
-/// Noise in (-1, 1) that depends on its number alone (splitmix64).
+/// Pseudo-random number in (-1, 1), a function of `number` alone (splitmix64).
 [[nodiscard]] inline double noise(std::uint64_t number) {
   number += 0x9e3779b97f4a7c15u;
   number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -35,7 +35,8 @@ namespace detail {
   return (static_cast<double>(number >> 11) + 0.5) * 0x1.0p-52 - 1.0;
 }
 
-/// A direction of motion, weighted by the root of the mass, and what stiffness and damping make of it.
+/// A direction in the space of displacements, weighted by the square root of the mass, and its images under stiffness
+/// and damping.
 template <int D>
 struct Direction {
   std::vector<Vector<double, D>> y, stiffness, damping;
@@ -45,7 +46,7 @@ struct Direction {
         damping(n, Vector<double, D>::Zero()) {}
 };
 
-/// The linearised force, and the vector algebra of the search for its largest eigenvalue.
+/// The linearised force, with the vector algebra for the search of its largest eigenvalue.
 template <class Force, class T, int D, class Rho, class E>
 class ProbedScene {
  public:
@@ -72,20 +73,20 @@ class ProbedScene {
   }
 
   [[nodiscard]] bool damped() const { return damped_; }
-  /// How often the force was evaluated so far.
+  /// The number of force evaluations so far.
   [[nodiscard]] int evaluations() const { return evaluations_; }
-  /// Trial velocities that weigh like the trial displacements do at the step `dt`.
+  /// Scales trial velocities so that they have the same effect as the trial displacements at the step `dt`.
   void scale_speed(double dt) {
     if (detail::is_finite(dt)) speed_ = length_ / dt;
   }
 
-  /// Fills what stiffness and damping make of `direction.y`, by central differences of the force.
+  /// Computes the images of `direction.y` under stiffness and damping by central differences of the force.
   void probe(Direction<D>& direction) {
     difference(direction.y, x_, length_, direction.stiffness, [&](const auto& trial, auto& f) { call(trial, v_, f); });
     if (damped_)
       difference(direction.y, v_, speed_, direction.damping, [&](const auto& trial, auto& f) { call(x_, trial, f); });
   }
-  /// No further velocities are tried if the force did not answer to the first.
+  /// Skips the velocities from now on if the force did not respond to the first ones.
   void forget_damping_if_none(const Direction<D>& direction) {
     damped_ = dot(direction.damping, direction.damping) > 0;
   }
@@ -104,7 +105,7 @@ class ProbedScene {
   }
   /// Makes `a` orthogonal to the unit vector `b`.
   void project_out(Direction<D>& a, const Direction<D>& b) const { blend(a, 1.0, b, -dot(a.y, b.y)); }
-  /// Scales `a` to unit length; false if it has (nearly) vanished against `scale`.
+  /// Scales `a` to unit length. Returns false if it has (nearly) vanished compared with `scale`.
   [[nodiscard]] bool normalise(Direction<D>& a, double scale) const {
     const double norm = std::sqrt(dot(a.y, a.y));
     if (!(norm > 1e-10 * scale)) return false;

@@ -21,31 +21,31 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// How `relax` came to rest.
+/// The result of `relax`.
 struct Relaxation {
-  /// The unbalanced forces over the load: the sum of |f| l0^D over the particles that move, over
+  /// Unbalanced forces divided by the load: the sum of |f| l0^D over the particles that move, divided by
   /// `RelaxationSettings::load`.
   double residual = 0;
-  double load = 0;      ///< in N, as given or as carried by the particles that do not move
-  int iterations = 0;   ///< steps made
-  int peaks = 0;        ///< how often the body was stopped at a peak of its kinetic energy
+  double load = 0;      ///< in N: as given, or the force on the particles that do not move
+  int iterations = 0;   ///< number of steps
+  int peaks = 0;        ///< number of kinetic energy peaks at which the body was stopped
   double step = 0;      ///< the last step in s
-  int evaluations = 0;  ///< of the force, with those of `stable_step`
+  int evaluations = 0;  ///< number of force evaluations, including those of `stable_step`
 };
 
-/// How `relax` looks for the state of rest.
+/// Settings of `relax`.
 struct RelaxationSettings {
   double spacing = 0;       ///< particle spacing l0 in m, positive
-  double tolerance = 1e-3;  ///< the residual at which the search ends; see `Relaxation::residual`
-  /// What the unbalanced forces are compared with in N (in two dimensions N/m): the weight of the body, the force that
-  /// presses it. 0: what the particles carry that do not move, of which there must be some then.
+  double tolerance = 1e-3;  ///< residual at which the search ends; see `Relaxation::residual`
+  /// The load in N (in two dimensions N/m) that the unbalanced forces are compared with, such as the weight of the body
+  /// or the force that presses it. 0: the force on the particles that do not move; there must be some.
   double load = 0;
-  int max_iterations = 100000;  ///< of one evaluation of the force each
-  double step = 0;              ///< in s; 0: that of `stable_step`, kept up to date on the way
-  /// Whether particle i follows the forces. The others stay where they are. Empty: all follow.
+  int max_iterations = 100000;  ///< one force evaluation each
+  double step = 0;              ///< in s; 0: that of `stable_step`, updated as the body deforms
+  /// Whether particle i follows the forces; the others keep their positions. Empty: all particles follow.
   std::function<bool(std::size_t)> moves = {};
-  /// Called after each evaluation of the force with what is known by then, to show that something happens, or to throw
-  /// where it takes too long. Empty: nothing is called.
+  /// Called after each force evaluation with the current result, for progress reports; may throw to stop the search.
+  /// Empty: not called.
   std::function<void(const Relaxation&)> progress = {};
 };
 
@@ -63,12 +63,12 @@ inline void validate(const RelaxationSettings& s) {
           " s; it must be positive, or 0 for that of stable_step");
 }
 
-/// Forces and motion of all particles at one moment.
+/// Sums over all particles at one time.
 struct Unbalanced {
-  double moving = 0;   ///< sum of force densities of the particles that move
+  double moving = 0;   ///< sum of |f| over the particles that move
   double held = 0;     ///< of the others
   double power = 0;    ///< of all forces on the velocities
-  double gain = 0;     ///< what a kick adds to it per second
+  double gain = 0;     ///< rate at which a kick increases the power
   double fastest = 0;  ///< largest speed
 
   [[nodiscard]] static Unbalanced join(const Unbalanced& a, const Unbalanced& b) {
@@ -76,8 +76,8 @@ struct Unbalanced {
   }
 };
 
-/// The step of a relaxation: a share of the largest stable one, estimated anew after a path of a tenth of a spacing, or
-/// of more if it does not change.
+/// The step of a relaxation: a fraction of the largest stable step. The estimate is refreshed after the particles have
+/// travelled a tenth of a spacing, or more if it does not change.
 class RelaxationStep {
  public:
   explicit RelaxationStep(const RelaxationSettings& settings)
@@ -89,7 +89,7 @@ class RelaxationStep {
   [[nodiscard]] double value() const { return step_; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
-  /// Brings it up to date for particles that move at up to `speed` (m/s).
+  /// Updates the step for particles that move at up to `speed` (m/s).
   template <class Force, class X, class V, int D, class Rho, class E>
   void update(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& density, double speed,
               const E& execute) {
@@ -132,11 +132,11 @@ template <class F, int D>
                            settings.max_iterations, ", or a larger tolerance than ", settings.tolerance));
 }
 
-/// The state that `relax` brings to rest, and what it does to all of its particles.
+/// The state that `relax` brings to rest, with the operations on all of its particles.
 template <class X, class V, class F, int D, class Rho, class E>
 class RelaxingBody {
  public:
-  /// Throws `InputError` where no particle moves, or all do and no load is given.
+  /// Throws `InputError` if no particle moves, or if all move and no load is given.
   RelaxingBody(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
                const RelaxationSettings& settings, const E& execute)
       : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
@@ -148,9 +148,9 @@ class RelaxingBody {
             "compared with");
   }
 
-  /// Of a particle, in m^D.
+  /// Volume of a particle in m^D.
   [[nodiscard]] double volume() const { return volume_; }
-  /// For each particle whether it follows the forces.
+  /// Whether each particle follows the forces.
   [[nodiscard]] const std::vector<char>& follows() const { return follows_; }
 
   void clear_forces() const {
@@ -158,19 +158,19 @@ class RelaxingBody {
       for (int c = 0; c < D; ++c) f_(i, c) = F(0);
     });
   }
-  /// Takes all velocities.
+  /// Sets all velocities to zero.
   void stop() const {
     execute_(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) v_(i, c) = V(0);
     });
   }
-  /// Takes the velocities of the particles that do not move.
+  /// Sets the velocities of the particles that do not move to zero.
   void hold() const {
     execute_(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D && !follows_[i]; ++c) v_(i, c) = V(0);
     });
   }
-  /// Moves all particles back by what they travel in `time` (s).
+  /// Moves all particles back along their velocities by `time` (s).
   void go_back(double time) const {
     execute_(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) x_(i, c) = static_cast<X>(x_(i, c) - v_(i, c) * time);
@@ -202,32 +202,34 @@ class RelaxingBody {
 
 }  // namespace detail
 
-/// Brings a body to rest under the composed `force`, by dynamic relaxation with kinetic damping: the static answer.
+/// Finds the static equilibrium of a body under the composed `force`, by dynamic relaxation with kinetic damping.
 ///
-/// The particles start at rest and follow symplectic Euler (\paper{2, 4}). Whenever their kinetic energy has passed a
-/// peak, that is when the forces begin to take power, f . v < 0, they go back to where in the last step it was, by
-/// linear interpolation of the power, and stop. For a linear body that is the least potential energy along the step, so
-/// that no stop lets it grow; without going back a mode of four steps per period would swing for ever. The first kick
-/// after a stop is of half a step, so that the velocities are those of the middle of the steps. It ends when the
-/// unbalanced forces are `tolerance` times the load, at rest.
+/// The particles start at rest and follow symplectic Euler (\paper{2, 4}). When their kinetic energy passes a peak,
+/// that is when the power of the forces f . v turns negative, the particles return to the peak, found by linear
+/// interpolation of the power within the last step, and stop. For a linear body this is the minimum of the potential
+/// energy along the step, so that stopping never increases the energy. Without the return, a mode with four steps per
+/// period would oscillate forever. The first kick after a stop takes half a step, which centres the velocities between
+/// the positions. The search ends when the body is at rest and the unbalanced forces are below `tolerance` times the
+/// load.
 ///
 ///     const auto found = relax(force, x, v, f, rho, {.spacing = l0, .load = weight, .moves = moves});
 ///
-/// What is found rests on no time and no mass: `rho` may be the material's or any other density. One that differs from
-/// particle to particle as the stiffness does needs fewer iterations where a body is stiff here and soft there. Leave
-/// viscosity out: it slows the way and does not change the end. With friction the end depends on the way. Where a load
-/// would overshoot too far, apply it in parts and call `relax` for each; a start near the answer is what saves most.
+/// The equilibrium depends on neither time nor mass: `rho` may be the density of the material or any other. A density
+/// per particle that is proportional to the local stiffness needs fewer iterations if stiff and soft parts are
+/// combined. Leave viscosity out: it slows the search and does not change the result. With friction the result depends
+/// on the path. If a load overshoots too far, apply it in increments and call `relax` for each. A start close to the
+/// result saves most.
 ///
-/// @param force  `force(x, v, f)` writes or adds force densities (N/m3), as for `stable_step`: what `internal_force`
-///               returns, or a lambda that adds several forces and the load
+/// @param force  `force(x, v, f)` writes or adds force densities (N/m3), as for `stable_step`: the result of
+///               `internal_force`, or a lambda that adds several forces and the load
 /// @param x      positions in m, changed; those of particles that do not move are kept
 /// @param v      velocities in m/s, zero at the end
-/// @param f      force densities, at the end those at rest: on particles that do not move the reactions
+/// @param f      force densities; at the end those at rest, which are the reactions of particles that do not move
 /// @param rho    density in kg/m3, a number or a `ScalarView`
 /// The result does not depend on the executor if the force does not. Positions in float may be too coarse for a small
-/// tolerance: keep them in double.
-/// Throws `InputError` for bad settings, views of different sizes or values that are not finite. Throws `StateError`
-/// where a force is not finite, and after `max_iterations`; the state then is as it was at that moment.
+/// tolerance; keep them in double. Throws `InputError` for bad settings, views of different sizes and values that are
+/// not finite. Throws `StateError` if a force is not finite and after `max_iterations`; the state is then the last one
+/// reached.
 template <class Force, class X, class V, class F, int D, PerParticle Rho, Executor E = Serial>
 Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                  const Rho& rho, const RelaxationSettings& settings, const E& execute = {}) {
@@ -252,7 +254,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   Relaxation result;
   detail::RelaxationStep step(settings);
   body.stop();
-  double before = 0;  // the power of the forces at the start of the last drift
+  double before = 0;  // power of the forces at the start of the last drift
   for (bool at_rest = true;; ++result.iterations) {
     body.clear_forces();
     force(Read(x), VectorView<const V, D>(v), f);
@@ -269,7 +271,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
     const bool balanced = result.residual <= settings.tolerance;
     if (balanced && at_rest) break;
     if (balanced || sums.power < 0) {
-      // Balanced in motion counts only if it lasts at rest: the force may depend on the velocities.
+      // A balance in motion does not count unless it lasts at rest: the force may depend on the velocities.
       if (!balanced) body.go_back(step.value() * sums.power / (sums.power - before));
       body.stop();
       at_rest = true;

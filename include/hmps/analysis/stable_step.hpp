@@ -15,39 +15,37 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Estimates the largest stable step of symplectic Euler (\paper{2, 3, 4}) for the composed `force`
-/// in the state `x`, `v`, without a matrix, by the force alone.
+/// Estimates the largest stable step of symplectic Euler (\paper{2, 3, 4}) for the composed `force` in the state `x`,
+/// `v`. Evaluates the force only; assembles no matrix.
 ///
-/// Let the force answer to a displacement u by the acceleration -K u and to a velocity w by -C w. The
-/// scheme, with the force at the old velocity, is stable while the largest eigenvalue of
-/// dt^2 K + 2 dt C is below 4: dt < 2 / omega without damping, dt < 2 / c without stiffness,
-/// dt < 4 / (c + sqrt(c^2 + 4 omega^2)) for a mode with both. (For one mode the step has the trace
-/// 2 - c dt - omega^2 dt^2 and the determinant 1 - c dt; each eigenvector of many modes obeys
-/// the same with its own quotients for omega^2 and c.) That eigenvector is found by conjugate
-/// gradients on the Rayleigh quotient, weighted by mass, from seeded noise, with dt brought up to date on the way.
-/// An iteration takes one pair of force evaluations, two where the force depends on v.
+/// Let the force respond to a displacement u with the acceleration -K u and to a velocity w with -C w. The scheme, with
+/// the force at the old velocity, is stable while the largest eigenvalue of dt^2 K + 2 dt C is below 4: dt < 2 / omega
+/// without damping, dt < 2 / c without stiffness, dt < 4 / (c + sqrt(c^2 + 4 omega^2)) for a mode with both. (For one
+/// mode the step has the trace 2 - c dt - omega^2 dt^2 and the determinant 1 - c dt; with many modes, each eigenvector
+/// obeys the same relation with its own quotients for omega^2 and c.) The eigenvector is found by conjugate gradients
+/// on the mass-weighted Rayleigh quotient, from seeded noise, while dt is updated. An iteration takes one pair of force
+/// evaluations, or two if the force depends on v.
 ///
-/// The quotient approaches the eigenvalue from below, so that `limit` approaches from above; `step`
-/// therefore lies below it by the residual, no further than which there is an eigenvalue, and by
-/// `margin`. A small residual may still be that of a smaller eigenvalue, while a single weakly held
-/// particle has not yet risen out of the noise: so the search goes on for at least the
-/// iterations (about 25) after which all but one noise in a thousand have seen every eigenvalue
-/// that matters for the margin. A margin of 0 leaves that out.
+/// The quotient approaches the eigenvalue from below, so `limit` approaches the true limit from above. `step` is
+/// therefore smaller than `limit`: by the residual, within which an eigenvalue is certain to lie, and by `margin`. A
+/// small residual may still belong to a smaller eigenvalue while the mode of a single weakly supported particle has not
+/// yet emerged from the noise. The search therefore makes at least about 25 iterations, after which all but one noise
+/// in a thousand have found every eigenvalue that matters for the margin. A margin of 0 omits this.
 ///
-/// To refresh the result during a run give its `mode` as `start`, and another `seed`. The search then starts from that
-/// mode with a tenth of noise and may stop after `refresh_iterations`. It follows a limiting mode that changes; one
-/// that appears elsewhere has so few iterations to rise in that it may take some refreshes until it is seen. A search
-/// without `start`, now and then, is the certain way.
+/// To refresh the result during a run, pass its `mode` as `start`, and a different `seed`. The search then starts from
+/// that mode with a tenth of noise and may stop after `refresh_iterations`. It follows a limiting mode that changes,
+/// but may take several refreshes to notice a mode that appears elsewhere. A search without `start` now and then is the
+/// safe way.
 ///
-/// It holds for the state given; stretch and new contacts change it. A contact that is not touched does not count, one
-/// whose penetration is less than the trial displacement counts by about half: set `perturbation` well below the
-/// penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of docs/stability.md the
-/// limit was that of the true, unsymmetric motion within half a per cent nevertheless.
+/// The result holds for the given state; stretch and new contacts change it. A contact that is not touched does not
+/// count. One whose penetration is smaller than the trial displacement counts by about half: set `perturbation` well
+/// below the penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of
+/// docs/stability.md the limit nevertheless agreed with that of the true, unsymmetric motion within half a per cent.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
-/// The views are not changed. The result does not depend on the executor if the force does not.
-/// Throws `InputError` for bad settings or views or a `start` of other particles, `StateError` if the force of a
-/// particle is not finite.
+/// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
+/// bad settings or views, or if `start` has a different number of particles; `StateError` if the force of a particle is
+/// not finite.
 template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Serial>
 [[nodiscard]] StableStep stable_step(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
                                      const Rho& density, const StableStepSettings& settings, const E& execute = {}) {

@@ -16,39 +16,39 @@ namespace hmps::inline HMPS_ABI {
 
 struct StableStep;
 
-/// How `stable_step` looks for the largest stable step.
+/// Settings of `stable_step`.
 struct StableStepSettings {
   double spacing = 0;        ///< particle spacing l0 in m, positive: the scale of the trial displacements
-  double margin = 0.03;      ///< what the step stays below the estimated limit, as a share of it
+  double margin = 0.03;      ///< relative distance that the step keeps from the estimated limit
   double tolerance = 0.02;   ///< residual of the eigenvector, relative to the eigenvalue, at which the search stops
-  int max_iterations = 300;  ///< of one or two pairs of force evaluations each
+  int max_iterations = 300;  ///< one or two pairs of force evaluations each
   double perturbation = 0;   ///< trial displacement over the spacing; 0: 1e-2 for float, 1e-5 for double
-  std::uint64_t seed = 1;    ///< of the noise that the search starts from
-  /// The `mode` of an earlier result for the same particles, to start from instead of noise alone; see `stable_step`.
+  std::uint64_t seed = 1;    ///< seed of the noise that the search starts from
+  /// The `mode` of an earlier result for the same particles, to start from instead of noise; see `stable_step`.
   std::span<const double> start = {};
-  int refresh_iterations = 4;  ///< made at least when there is a `start`
-  /// Whether particle i follows the forces; those with a forced displacement do not. Empty: all do.
+  int refresh_iterations = 4;  ///< minimum number of iterations with a `start`
+  /// Whether particle i follows the forces, as opposed to a forced displacement. Empty: all particles follow.
   std::function<bool(std::size_t)> moves = {};
-  /// Called after each iteration with what is known by then (limit, residual, iterations), to show that something
-  /// happens, or to throw where it takes too long. Empty: nothing is called.
+  /// Called after each iteration with the current result (limit, residual, iterations), for progress reports; may throw
+  /// to stop the search. Empty: not called.
   std::function<void(const StableStep&)> progress = {};
 };
 
-/// The largest stable step of a scene and what limits it.
+/// The largest stable step of a scene, and the mode that limits it.
 struct StableStep {
-  double step = 0;           ///< the step to use in s, `margin` and the residual below the limit
-  double limit = 0;          ///< the estimated limit of stability itself in s; infinite without any stiffness
-  double omega = 0;          ///< circular frequency of the limiting mode in rad/s
-  double damping = 0;        ///< its damping c in 1/s, the rate at which it would lose speed without stiffness
-  std::size_t particle = 0;  ///< the particle that moves most in it
-  double share = 0;          ///< that particle's share of the mode's kinetic energy
-  double participation = 0;  ///< about how many particles take part: 1 for a single weakly held one
+  double step = 0;           ///< step to use in s: below the limit by `margin` and the residual
+  double limit = 0;          ///< estimated limit of stability in s; infinite without any stiffness
+  double omega = 0;          ///< angular frequency of the limiting mode in rad/s
+  double damping = 0;        ///< damping c of the limiting mode in 1/s
+  std::size_t particle = 0;  ///< particle with the largest amplitude in the limiting mode
+  double share = 0;          ///< fraction of the mode's kinetic energy in that particle
+  double participation = 0;  ///< approximate number of particles that take part; 1 for a single weakly supported one
   double residual = 0;       ///< relative residual reached
-  bool converged = false;    ///< false: raise max_iterations or tolerance; the step is still a cautious one
-  int iterations = 0;        ///< made
-  int evaluations = 0;       ///< of the force
-  /// The limiting mode: displacements times the root of density, D numbers per particle, of unit length. What
-  /// `StableStepSettings::start` and `step_causes` take.
+  bool converged = false;    ///< if false, raise max_iterations or tolerance; the step is still conservative
+  int iterations = 0;        ///< number of iterations
+  int evaluations = 0;       ///< number of force evaluations
+  /// The limiting mode: displacements times the square root of density, D numbers per particle, of unit length. Input
+  /// of `StableStepSettings::start` and `step_causes`.
   std::vector<double> mode = {};
 };
 
@@ -68,7 +68,7 @@ inline void validate(const StableStepSettings& s) {
           "hmps: the perturbation of stable_step is ", s.perturbation, " spacings; it must lie in [0, 0.1)");
 }
 
-/// The length in m of trial displacements of positions in `T`.
+/// Length in m of the trial displacements for positions of type `T`.
 template <class T>
 [[nodiscard]] double trial_displacement(const StableStepSettings& s) {
   return s.spacing * (s.perturbation > 0 ? s.perturbation : sizeof(T) > 4 ? 1e-5 : 1e-2);

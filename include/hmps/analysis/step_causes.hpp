@@ -21,7 +21,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A part of the composed force, under the name by which `step_causes` speaks of it. Refers to the force.
+/// A named part of the composed force, for `step_causes`. Refers to the force.
 template <class Force>
 struct NamedForce {
   std::string name;
@@ -30,21 +30,21 @@ struct NamedForce {
 template <class Force>
 NamedForce(const char*, Force&) -> NamedForce<Force>;
 
-/// What one part of the force does to the limiting mode.
+/// Contribution of one part of the force to the limiting mode.
 struct StepCause {
   std::string name;
-  double stiffness = 0;  ///< its k in 1/s2: the mode's omega^2 is the sum over all parts
-  double damping = 0;    ///< its c in 1/s
-  double share = 0;      ///< its share of dt^2 k + 2 dt c = 4, which the limit is reached by
+  double stiffness = 0;  ///< k in 1/s2; omega^2 of the mode is the sum over all parts
+  double damping = 0;    ///< c in 1/s
+  double share = 0;      ///< fraction of dt^2 k + 2 dt c = 4 at the limit
 };
 
-/// Which parts of the force limit the step: the quotient of `found`, the result of `stable_step` for the whole, part by
-/// part, the largest share first. The parts are forces that add up to the whole, such as
-/// `internal_force(bonds, artificial(E_hat))` beside `internal_force(bonds, elastic(law))`; then the shares add up
-/// to 1. A negative share is that of a part that softens the mode. Takes two force evaluations of each part, and two
-/// more of each that depends on velocities.
+/// Finds which parts of the force limit the step. Evaluates the Rayleigh quotient of `found`, the result of
+/// `stable_step` for the whole force, for each part, and sorts the parts by their share, largest first. The parts must
+/// add up to the whole, for example `internal_force(bonds, artificial(E_hat))` and `internal_force(bonds,
+/// elastic(law))`; the shares then add up to 1. A part with a negative share softens the mode. Takes two force
+/// evaluations per part, and two more if the part depends on velocities.
 ///
-/// The other arguments are those that `stable_step` was called with. Throws as it does.
+/// The other arguments are those of `stable_step`. Throws as it does.
 template <class X, class V, int D, PerParticle Rho, class... Forces>
 [[nodiscard]] std::vector<StepCause> step_causes(const StableStep& found, const VectorView<X, D>& x,
                                                  const VectorView<V, D>& v, const Rho& density,
@@ -78,8 +78,8 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   return causes;
 }
 
-/// How well the bonds of `particle` support it: the smallest eigenvalue of its A (\paper{12}) over that of a full
-/// neighbourhood. 1 inside, 0.5 at a flat surface of a lattice, 0.28 at the corner of a cube: the stiffness of a
+/// How well the bonds of `particle` support it: the smallest eigenvalue of its A (\paper{12}) divided by that of a full
+/// neighbourhood. 1 inside, 0.5 at a flat surface of a lattice, 0.28 at the corner of a cube. The stiffness of a
 /// particle grows as this falls.
 template <class K, int D>
 [[nodiscard]] double relative_support(const Blocks<K, D>& bonds, std::size_t particle) {
@@ -91,7 +91,7 @@ template <class K, int D>
   return 1 / (solver.eigenvalues()[D - 1] * full);
 }
 
-/// One line that names the largest stable step, the particle that sets it, and its causes.
+/// One line of text with the largest stable step, the particle that limits it, and the causes.
 [[nodiscard]] inline std::string describe(const StableStep& found, const std::vector<StepCause>& causes,
                                           double support = 1) {
   char step[32];

@@ -19,31 +19,31 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Iterations after which a Krylov method started from noise in `dimension` dimensions has a quotient
-/// below the largest eigenvalue by less than `margin` of its root, but for one start in a
-/// thousand: the bound of Kuczynski and Wozniakowski (1992), P <= 1.648 sqrt(n) exp(-sqrt(e) (2 m - 1)).
+/// The number of iterations after which a Krylov method started from noise in `dimension` dimensions has found the
+/// largest eigenvalue to within `margin` of its square root, except for one start in a thousand. From the bound of
+/// Kuczynski and Wozniakowski (1992), P <= 1.648 sqrt(n) exp(-sqrt(e) (2 m - 1)).
 [[nodiscard]] inline int least_iterations(std::size_t dimension, double margin) {
   const double error = 1 - (1 - margin) * (1 - margin);
   const double exponent = std::log(1.648 * std::sqrt(static_cast<double>(dimension)) / 1e-3);
   return error > 0 ? static_cast<int>(std::min(std::ceil((exponent / std::sqrt(error) + 1) / 2), 1e6)) : 1;
 }
 
-/// The share of noise in a search that starts from an earlier mode: what a new mode can grow from.
+/// Amount of noise in a search that starts from an earlier mode, from which a new mode can grow.
 inline constexpr double fresh_noise = 0.1;
 
-/// The step at which dt^2 k + 2 dt c reaches 4, infinite if it never does.
+/// The step at which dt^2 k + 2 dt c reaches 4; infinite if it never does.
 [[nodiscard]] inline double step_limit(double k, double c) {
   const double discriminant = c * c + 4 * k;
   const double denominator = c + std::sqrt(std::max(discriminant, 0.0));
   return discriminant >= 0 && denominator > 0 ? 4 / denominator : std::numeric_limits<double>::infinity();
 }
 
-/// The search of `stable_step`: conjugate gradients on the Rayleigh quotient of dt^2 K + 2 dt C, dt being brought up to
-/// date in each iteration.
+/// The search of `stable_step`: conjugate gradients on the Rayleigh quotient of dt^2 K + 2 dt C, with dt updated in
+/// each iteration.
 template <class Force, class T, int D, class Rho, class E>
 class StepSearch {
  public:
-  /// Starts from noise, and from the mode that `settings` have, if any.
+  /// Starts from noise, and from the mode in `settings` if there is one.
   template <class X, class V>
   StepSearch(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& density,
              const StableStepSettings& settings, const E& execute)
@@ -62,7 +62,7 @@ class StepSearch {
   }
 
   [[nodiscard]] StableStep run() {
-    constexpr double exact = 1e-7;  // what is left of the residual is rounding: nothing can grow out of it
+    constexpr double exact = 1e-7;  // below this the residual is rounding: nothing can grow out of it
     const int cold = least_iterations(n_ * D, settings_.margin);
     const int least = settings_.start.empty() ? cold : std::min(cold, settings_.refresh_iterations);
     StableStep result;
@@ -71,7 +71,7 @@ class StepSearch {
       c_ = scene_.damped() ? scene_.dot(best_.y, best_.damping) : 0.0;
       const double dt = result.limit = step_limit(k_, c_);
       if (!is_finite(dt)) {
-        // Neither stiffness nor damping answers to noise: nothing limits the step.
+        // Neither stiffness nor damping responds to noise: nothing limits the step.
         result.converged = true;
         result.residual = 0;
         break;
@@ -89,7 +89,7 @@ class StepSearch {
       if (settled || result.iterations >= settings_.max_iterations) {
         result.converged = settled;
         if (fresh_ || !result.converged) break;
-        // The images were combined, not evaluated, for some iterations: make sure of the last word.
+        // The images were combined linearly for some iterations: evaluate them before the final answer.
         probe(best_);
         fresh_ = true;
         continue;
@@ -111,7 +111,7 @@ class StepSearch {
       if (!moves(i)) best_.y[i].setZero();
     }
   }
-  /// From the mode in the settings, and a tenth of the noise that there is.
+  /// Starts from the mode in the settings with a tenth of noise.
   void start_from_mode() {
     require(settings_.start.size() == n_ * D, "hmps: the mode that stable_step starts from has ",
             settings_.start.size(), " numbers, but ", n_, " particles in ", D, " dimensions need ", n_ * D,
@@ -127,8 +127,8 @@ class StepSearch {
       if (!moves(i)) direction.stiffness[i] = direction.damping[i] = Vector<double, D>::Zero();
   }
 
-  /// Goes on to the largest quotient in the span of `best_`, `descent_` and the direction before; false where nothing
-  /// is left to go along.
+  /// Moves to the largest quotient in the span of `best_`, `descent_` and the previous direction. Returns false if no
+  /// direction is left.
   [[nodiscard]] bool ascend(double dt) {
     if (have_previous_) {
       scene_.project_out(previous_, best_);
@@ -148,7 +148,7 @@ class StepSearch {
     fresh_ = false;
     return scene_.normalise(best_, 1.0);
   }
-  /// dt^2 K + 2 dt C in the span of the three directions (Rayleigh-Ritz), made symmetric.
+  /// dt^2 K + 2 dt C projected on the three directions (Rayleigh-Ritz), symmetrised.
   [[nodiscard]] Matrix<double, 3> projected(double dt) const {
     const std::array<const Direction<D>*, 3> basis{&best_, &descent_, &previous_};
     const int dimension = have_previous_ ? 3 : 2;
@@ -167,7 +167,7 @@ class StepSearch {
     return B;
   }
 
-  /// What `best_` says of the limit.
+  /// The result that `best_` implies.
   void conclude(StableStep& result) const {
     result.omega = std::sqrt(std::max(k_, 0.0));
     result.damping = std::max(c_, 0.0);

@@ -3,12 +3,13 @@
 
 #include "hmps/core/language.hpp"  // before anything that an older standard does not know
 
-/// The inline namespace in which the library lies: one name for each kind of object code that must not be mixed. Inline
-/// functions that two translation units share are linked once; were one compiled by g++ and the other by clang++, which
-/// lay out the captures of a closure in another order, or one with -ffast-math, which drops checks, one of the two
-/// would run code that does not fit its data. With names of their own, each keeps its own. A function of yours that
-/// takes types of the library therefore links only among translation units of one kind; small vectors and matrices,
-/// which are Eigen's, and exceptions are the same in all. Flags such as -mavx2 may differ: they change no layout.
+/// The inline namespace of the library, with a different name for each kind of object code that must not be mixed. The
+/// linker keeps one copy of an inline function that several translation units share. If g++ compiled one of them and
+/// clang++ the other, which lay out the captures of closures differently, or if -ffast-math removed checks from one,
+/// some callers would run code that does not fit their data. Different names keep the copies apart. Consequently, a
+/// function of yours that takes types of the library links only between translation units of one kind. Small vectors
+/// and matrices, which are Eigen's, and exceptions are the same in all kinds. Flags such as -mavx2 may differ: no
+/// layout depends on them.
 #if defined(__clang__)
 #define HMPS_ABI_COMPILER clang
 #elif defined(__GNUC__)

@@ -8,17 +8,17 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Base of an object that others refer to and that may be moved meanwhile, as bodies in a `std::vector` are when it
-/// grows: an `Anchor` of it knows where it is now, and when it is no more.
+/// Base class of objects that others refer to and that may be moved, such as bodies in a growing `std::vector`. An
+/// `Anchor` knows the current address of its object, and whether it still exists.
 class Anchored {
   using Place = std::shared_ptr<const Anchored*>;
 
  public:
-  /// Refers to an `Anchored` wherever it goes.
+  /// A reference to an `Anchored` that follows its moves.
   class Anchor {
    public:
     explicit Anchor(const Anchored& object) : place_(object.place_) {}
-    /// Where the object is; null if it was destroyed or assigned to.
+    /// The current address of the object; null if it was destroyed or assigned to.
     [[nodiscard]] const Anchored* object() const { return place_ ? *place_ : nullptr; }
 
    private:

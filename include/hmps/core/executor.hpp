@@ -16,10 +16,9 @@ struct AnyBody {
 };
 }  // namespace detail
 
-/// Runs loops for the library. Valid expression: `execute(n, body)`, which calls `body(i)` exactly
-/// once for every `i` in `[0, n)`, in any order and possibly at the same time, and returns when
-/// all calls have returned. Satisfied by `Serial`, `OpenMP` and `OneTBB`, or by a user's lambda.
-/// Loop bodies of the library never write to the same place, so results do not depend on it.
+/// Runs the loops of the library: `execute(n, body)` calls `body(i)` exactly once for every `i` in `[0, n)`, in any
+/// order and possibly concurrently, and returns when all calls have returned. Models: `Serial`, `OpenMP`, `OneTBB`, a
+/// lambda. The loop bodies of the library never write to the same memory, so results do not depend on the executor.
 template <class E>
 concept Executor = requires(const E& execute, std::size_t n, detail::AnyBody body) {
   execute(n, body);

@@ -10,12 +10,12 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 
-/// Checks of NaN and infinity that hold whatever the floating-point flags of the compiler. With -ffast-math, -Ofast or
-/// -ffinite-math-only it takes every number for finite, so that `std::isfinite(x)` is `true` and `!(x > 0)` is not to
-/// be relied upon for NaN: these look at the bits. Ask them first and compare afterwards: `is_finite(x) && x > 0`.
+/// Tests for NaN and infinity that work with any floating-point flags. With -ffast-math, -Ofast or -ffinite-math-only,
+/// the compiler assumes that every number is finite: `std::isfinite(x)` becomes `true`, and `!(x > 0)` may be false for
+/// NaN. These functions test the bits. Call them before any comparison: `is_finite(x) && x > 0`.
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The bits of the exponent of `x`, all set in NaN and infinity, and those of the fraction, zero in infinity.
+/// The exponent bits of `x`, all set in NaN and infinity, and the fraction bits, zero in infinity.
 template <class T>
 struct FloatBits {
   static_assert(std::numeric_limits<T>::is_iec559 && (sizeof(T) == 4 || sizeof(T) == 8));
@@ -26,7 +26,7 @@ struct FloatBits {
   [[nodiscard]] static constexpr Bits of(const T& x) {
     Bits bits = std::bit_cast<Bits>(x);
 #if defined(__GNUC__) || defined(__clang__)
-    // Hides where the bits come from: some compilers see through them and answer by the flags again.
+    // Hides the origin of the bits; otherwise some compilers recognise the test and apply the flags again.
     if (!std::is_constant_evaluated()) asm("" : "+r"(bits));
 #endif
     return bits & magnitude;

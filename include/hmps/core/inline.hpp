@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Inlined whatever the optimiser thinks of it, so that packs of lanes stay in registers: `HMPS_INLINE` before a
-/// function, `HMPS_INLINE_LAMBDA` behind the parameters of a lambda. `HMPS_COLD` before what runs only when something
-/// is wrong: neither inlined nor optimised for speed.
+/// Forces inlining, so that packs of lanes stay in registers: write `HMPS_INLINE` before a function,
+/// `HMPS_INLINE_LAMBDA` after the parameters of a lambda. Write `HMPS_COLD` before functions that run only after an
+/// error: they are neither inlined nor optimised for speed.
 #if defined(__GNUC__) || defined(__clang__)
 #define HMPS_INLINE [[gnu::always_inline]] inline
 #define HMPS_INLINE_LAMBDA __attribute__((always_inline))

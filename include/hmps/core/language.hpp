@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Says at once, and in words, what the compiler would say in pages.
+// Reports in one line what the compiler would otherwise report in pages.
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 201709L
 #error "hmps needs C++20: compile with -std=c++20 (or target_compile_features(... cxx_std_20) in CMake)"
 #endif

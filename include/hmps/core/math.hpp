@@ -11,16 +11,16 @@
 
 namespace hmps::inline HMPS_ABI {
 
-// What the laws and the kernels need of small tensors, in few operations. `T` may be an arithmetic
-// type or a pack of lanes: only + - * / and functions found by argument-dependent lookup are used,
-// and no branch depends on a value. All of it is inlined, so that packs stay in registers.
+// Operations on small tensors for laws and sweeps. `T` may be an arithmetic type or a pack of lanes. The code uses only
+// + - * / and functions found by argument-dependent lookup, and never branches on a value. Everything is inlined, so
+// that packs stay in registers.
 
-/// `x` to the power -1/3: NaN for `x <= 0`, as in packs of lanes, which bring their own overload.
+/// `x` to the power -1/3; NaN for `x <= 0`. Packs of lanes have an overload of their own.
 template <class T>
 requires std::is_floating_point_v<T>
 [[nodiscard]] T inverse_cube_root(T x) { return x > T(0) ? T(1) / std::cbrt(x) : std::numeric_limits<T>::quiet_NaN(); }
 
-/// `yes` where `mask` holds, `no` elsewhere: the branch of code that also runs on packs of lanes.
+/// `yes` where `mask` holds, `no` elsewhere: replaces a branch in code that also runs on packs of lanes.
 template <class T>
 requires std::is_arithmetic_v<T>
 [[nodiscard]] constexpr T select(bool mask, T yes, T no) { return mask ? yes : no; }
@@ -77,8 +77,7 @@ template <class T, int D>
   return K;
 }
 
-/// The cofactor matrix of a symmetric `M`, which is symmetric too: det(M) M^-1 with six cofactors
-/// in place of nine.
+/// The cofactor matrix of a symmetric `M`, which is symmetric too: det(M) M^-1 from six cofactors instead of nine.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE Matrix<T, D> symmetric_cofactor(const Matrix<T, D>& M) {
   if constexpr (D == 2) {
@@ -108,7 +107,7 @@ template <class T, int D>
   return result;
 }
 
-/// The matrix product A B, without any detour of the linear-algebra library.
+/// The matrix product A B, without Eigen's expression templates.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE Matrix<T, D> product(const Matrix<T, D>& A, const Matrix<T, D>& B) {
   Matrix<T, D> result;

@@ -19,8 +19,7 @@ template <class T>
 struct IsScalarView<ScalarView<T>> : std::true_type {};
 }  // namespace detail
 
-/// A quantity that all particles share (a number) or that each has of its own (a `ScalarView`):
-/// density, volume.
+/// A quantity, such as density or volume, that is one number for all particles or a `ScalarView` with one per particle.
 template <class Q>
 concept PerParticle = std::is_arithmetic_v<Q> || detail::IsScalarView<Q>::value;
 
@@ -35,8 +34,8 @@ template <PerParticle Q>
   }
 }
 
-/// Throws `InputError`, calling the quantity `name` in `unit`, unless it is positive and finite at
-/// every one of the `size` particles.
+/// Throws `InputError` unless the quantity is positive and finite at each of the `size` particles; the message calls it
+/// `name`, in `unit`.
 template <PerParticle Q>
 void require_positive(const Q& quantity, std::size_t size, const char* name, const char* unit) {
   if constexpr (std::is_arithmetic_v<Q>) {

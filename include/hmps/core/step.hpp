@@ -10,7 +10,7 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Throws `InputError` unless `dt` (s) is a time step.
+/// Throws `InputError` unless `dt` (s) is positive and finite.
 inline void require_step(double dt) {
   require(detail::is_finite(dt) && dt > 0, "hmps: the time step is ", dt,
           " s; it must be positive and finite (stable_step estimates the largest stable one)");

@@ -14,18 +14,18 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// What may come out of a device or a pipe at most, which need not end: 1 GiB.
+/// Limit for devices and pipes, which may never end: 1 GiB.
 inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
 
-/// The bytes of the file `path`. Throws `InputError` if it cannot be read, or if it is no regular file and holds more
-/// than `most` bytes.
+/// Reads the file `path`. Throws `InputError` if it cannot be read, or if it is not a regular file and holds more than
+/// `most` bytes.
 [[nodiscard]] inline std::string read_text(const std::string& path, std::size_t most = most_streamed_bytes) {
   std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
   require(file.good(), "hmps: cannot open ", path, "; check that the file exists and may be read");
   require(!std::filesystem::is_directory(path, ignored), "hmps: ", path, " is a folder; give a file");
   const bool ends = std::filesystem::is_regular_file(path, ignored);
-  // Grown in pieces rather than by the file's size, so that pipes can be read too.
+  // Read in pieces instead of by the file's size, so that pipes can be read too.
   constexpr std::size_t piece = std::size_t{1} << 20;
   std::string text;
   while (file) {
@@ -40,7 +40,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return text;
 }
 
-/// A piece of a file for a message: what cannot be printed as \xNN, cut after 40 characters.
+/// Quotes a piece of a file for a message: unprintable bytes as \xNN, cut after 40 characters.
 [[nodiscard]] inline std::string printable(std::string_view text) {
   constexpr std::size_t most = 40;
   constexpr std::string_view digits = "0123456789abcdef";
@@ -56,7 +56,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return result;
 }
 
-/// `text` without blanks at its ends; a carriage return counts as one.
+/// `text` without leading and trailing blanks, including carriage returns.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r";
   const auto first = text.find_first_not_of(blank);
@@ -64,7 +64,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-/// Cuts the first line off `text`, without its end.
+/// Removes and returns the first line of `text`, without its end.
 [[nodiscard]] inline std::string_view take_line(std::string_view& text) {
   const auto end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -72,7 +72,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return line;
 }
 
-/// Cuts the first word off `text`; empty at its end.
+/// Removes and returns the first word of `text`; empty at the end.
 [[nodiscard]] inline std::string_view take_word(std::string_view& text) {
   text = trimmed(text);
   const std::string_view word = text.substr(0, text.find_first_of(" \t\r"));
@@ -80,7 +80,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return word;
 }
 
-/// Reads the whole of `text` as a number, whatever the locale; false if it is not one.
+/// Parses all of `text` as a number, independent of the locale. Returns false if it is not one.
 template <class T>
 [[nodiscard]] bool parse_number(std::string_view text, T& number) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

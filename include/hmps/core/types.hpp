@@ -9,11 +9,11 @@
 /// Particle mechanics for soft tissue by the Hamiltonian MPS method. SI units everywhere.
 namespace hmps {
 
-/// Index of a particle in the user's arrays. 32 bits: a list of bonds is what fills memory.
+/// Index of a particle in the user's arrays. 32 bits, because lists of bonds dominate memory.
 using Index = std::uint32_t;
 
-/// A small vector of `D` components. Unaligned on purpose: its layout is the same whatever
-/// instruction set and Eigen alignment a translation unit is compiled for.
+/// A vector of `D` components. Unaligned, so that its layout does not depend on the instruction set and Eigen's
+/// alignment settings of a translation unit.
 template <class T, int D>
 using Vector = Eigen::Matrix<T, D, 1, Eigen::DontAlign>;
 

@@ -92,7 +92,7 @@ concept Elements = requires(R& range) {
   typename MemberTraits<std::remove_const_t<typename decltype(std::span(range))::element_type>>::Scalar;
 };
 
-/// An Eigen object over memory that outlives the call: no temporary that owns its numbers.
+/// An Eigen object that refers to memory of others, as opposed to a temporary that owns its numbers.
 template <class M>
 concept EigenView = std::derived_from<std::remove_cvref_t<M>, Eigen::DenseBase<std::remove_cvref_t<M>>> &&
     requires(M& m) {
@@ -105,22 +105,20 @@ concept Columns = M::RowsAtCompileTime == 2 || M::RowsAtCompileTime == 3;
 
 }  // namespace detail
 
-/// Vectors in a range of `Eigen::Vector3d`, `std::array<float, 2>`, … (anything that a `std::span`
-/// can be made of).
+/// A view of vectors in a range of `Eigen::Vector3d`, `std::array<float, 2>`, … (anything convertible to `std::span`).
 template <detail::Elements R>
 [[nodiscard]] auto vectors(R& range) {
   const std::span span(range);
   return detail::as_vectors(detail::elements(span.data(), span.size()));
 }
 
-/// Vectors in the member `pointer` of a range of the user's structs:
-/// `vectors(particles, &Particle::position)`.
+/// A view of vectors in the member `pointer` of a range of structs: `vectors(particles, &Particle::position)`.
 template <class R, class Class, class Member>
 [[nodiscard]] auto vectors(R& range, Member Class::*pointer) {
   return detail::as_vectors(detail::member(std::span(range), pointer));
 }
 
-/// Vectors in one array per component (struct of arrays). Throws `InputError` if sizes differ.
+/// A view of vectors stored as one array per component (struct of arrays). Throws `InputError` if sizes differ.
 template <class R, class... More>
 requires(detail::Elements<R> && sizeof...(More) >= 1 && (detail::Elements<More> && ...))
     [[nodiscard]] auto vectors(R& first, More&... more) {
@@ -133,8 +131,8 @@ requires(detail::Elements<R> && sizeof...(More) >= 1 && (detail::Elements<More> 
   return VectorView<T, D>({x.data(), std::span(more).data()...}, x.size(), sizeof(T));
 }
 
-/// Vectors in the columns of an Eigen matrix, map or block with 2 or 3 rows at compile time. Maps and
-/// blocks may be temporaries.
+/// A view of vectors in the columns of an Eigen matrix, map or block with 2 or 3 rows at compile time. Maps and blocks
+/// may be temporaries.
 template <class M>
 requires(detail::EigenView<M>&& detail::Columns<std::remove_cvref_t<M>>) [[nodiscard]] auto vectors(M&& columns) {
   using T = std::remove_pointer_t<decltype(columns.data())>;
@@ -147,26 +145,27 @@ requires(detail::EigenView<M>&& detail::Columns<std::remove_cvref_t<M>>) [[nodis
   return VectorView<T, D>(base, static_cast<std::size_t>(columns.cols()), col * static_cast<std::ptrdiff_t>(sizeof(T)));
 }
 
-/// Vectors of `D` components, the first at `first`, `stride` bytes from particle to particle.
+/// A view of vectors of `D` components in raw memory: the first one at `first`, `stride` bytes from particle to
+/// particle.
 template <int D, class T>
 [[nodiscard]] VectorView<T, D> vectors(T* first, std::size_t size, std::ptrdiff_t stride = D * sizeof(T)) {
   return detail::interleaved<D>(first, size, stride);
 }
 
-/// Tensors in a range of `Eigen::Matrix3d`, `std::array<float, 9>` (column-major), ….
+/// A view of tensors in a range of `Eigen::Matrix3d`, `std::array<float, 9>` (column-major), ….
 template <detail::Elements R>
 [[nodiscard]] auto matrices(R& range) {
   const std::span span(range);
   return detail::as_matrices(detail::elements(span.data(), span.size()));
 }
 
-/// Tensors in the member `pointer` of a range of the user's structs.
+/// A view of tensors in the member `pointer` of a range of structs.
 template <class R, class Class, class Member>
 [[nodiscard]] auto matrices(R& range, Member Class::*pointer) {
   return detail::as_matrices(detail::member(std::span(range), pointer));
 }
 
-/// Scalars in a contiguous range.
+/// A view of scalars in a contiguous range.
 template <detail::Elements R>
 [[nodiscard]] auto scalars(R& range) {
   const std::span span(range);
@@ -174,7 +173,7 @@ template <detail::Elements R>
   return ScalarView<T>(detail::elements(span.data(), span.size()));
 }
 
-/// Scalars in an Eigen vector, map or segment.
+/// A view of scalars in an Eigen vector, map or segment.
 template <class M>
 requires(detail::EigenView<M>&& bool(std::remove_cvref_t<M>::IsVectorAtCompileTime))
     [[nodiscard]] auto scalars(M&& values) {
@@ -183,7 +182,7 @@ requires(detail::EigenView<M>&& bool(std::remove_cvref_t<M>::IsVectorAtCompileTi
                        values.innerStride() * static_cast<std::ptrdiff_t>(sizeof(T)));
 }
 
-/// Scalars in the member `pointer` of a range of the user's structs.
+/// A view of scalars in the member `pointer` of a range of structs.
 template <class R, class Class, class Member>
 [[nodiscard]] auto scalars(R& range, Member Class::*pointer) {
   const auto view = detail::member(std::span(range), pointer);

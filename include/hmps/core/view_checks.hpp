@@ -12,9 +12,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Throws `InputError` unless the memory that `view`, called `name` in the message, describes can be one: no component
-/// starts at null, addresses are aligned as the scalar must be, and of what is written no two particles share memory. A
-/// view that is only read may have the stride 0, one value for all. Looks at no particle.
+/// Throws `InputError` unless `view`, called `name` in the message, describes valid memory: no component starts at
+/// null, all addresses are aligned, and if the view is writable, no two particles share memory. A read-only view may
+/// have the stride 0, one value for all particles. Does not access the particles.
 template <class T, int N>
 void require_view(const View<T, N>& view, const char* name) {
   if (view.size() == 0) return;
@@ -34,7 +34,8 @@ void require_view(const View<T, N>& view, const char* name) {
             stride, " bytes puts several particles in one place; a scalar takes ", sizeof(T), " bytes");
 }
 
-/// Throws `InputError` unless `view`, called `name` in the message, holds `size` particles, and as `require_view` does.
+/// Throws `InputError` unless `view`, called `name` in the message, is valid (`require_view`) and holds `size`
+/// particles.
 template <class T, int N>
 void require_size(const View<T, N>& view, std::size_t size, const char* name) {
   require(view.size() == size, "hmps: the view of ", name, " holds ", view.size(), " particles but ", size,
@@ -42,16 +43,16 @@ void require_size(const View<T, N>& view, std::size_t size, const char* name) {
   require_view(view, name);
 }
 
-/// Throws `InputError` if two views begin at the same address, though the first is written: what is read through the
-/// other would change on the way. Does not see views that overlap elsewhere.
+/// Throws `InputError` if a writable view starts at the same address as another view, which would then change while it
+/// is read. Does not detect views that overlap elsewhere.
 template <class T, int N, class U, int M>
 void require_apart(const View<T, N>& written, const char* name, const View<U, M>& other, const char* other_name) {
   require(written.size() == 0 || static_cast<const void*>(written.base(0)) != static_cast<const void*>(other.base(0)),
           "hmps: the views of ", name, " and ", other_name, " are the same memory; give each an array of its own");
 }
 
-/// Throws `InputError` at the first particle of `view`, called `name`, with a NaN or an infinity, and as `require_view`
-/// does.
+/// Throws `InputError` unless `view`, called `name`, is valid (`require_view`) and every particle is finite; names the
+/// first that is not.
 template <class T, int N>
 void require_finite(const View<T, N>& view, const char* name) {
   require_view(view, name);

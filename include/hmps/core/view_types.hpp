@@ -12,9 +12,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// View of `N` scalars per particle in the user's own memory: component `c` of particle `i` lies
-/// `i * stride` bytes behind `base(c)`. One shape for arrays of structs, structs of arrays, Eigen
-/// maps and raw pointers. Copying a view copies no state. `T` is `const` for read-only views.
+/// A view of `N` scalars per particle in the user's memory: component `c` of particle `i` lies `i * stride` bytes after
+/// `base(c)`. It describes arrays of structs, structs of arrays, Eigen maps and raw memory alike. Copying a view does
+/// not copy the data. `T` is `const` for read-only views.
 template <class T, int N>
 class View {
  public:
@@ -56,7 +56,7 @@ class View {
   std::ptrdiff_t stride_ = 0;
 };
 
-/// View of one scalar per particle.
+/// A view of one scalar per particle.
 template <class T>
 struct ScalarView : View<T, 1> {
   using View<T, 1>::View;
@@ -66,7 +66,7 @@ struct ScalarView : View<T, 1> {
   [[nodiscard]] ScalarView part(std::size_t first, std::size_t count) const { return View<T, 1>::part(first, count); }
 };
 
-/// View of one `D`-vector per particle: positions, velocities, force densities.
+/// A view of one `D`-vector per particle: positions, velocities, force densities.
 template <class T, int D>
 struct VectorView : View<T, D> {
   using typename View<T, D>::Scalar;
@@ -92,7 +92,7 @@ struct VectorView : View<T, D> {
   }
 };
 
-/// View of one `D` by `D` tensor per particle, column-major: deformation gradients.
+/// A view of one `D` by `D` tensor per particle, column-major: deformation gradients.
 template <class T, int D>
 struct MatrixView : View<T, D * D> {
   using typename View<T, D * D>::Scalar;

@@ -19,23 +19,22 @@
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 
-/// Energies of a body in J (in two dimensions per metre of thickness), summed in double precision
-/// in an order that does not depend on the executor. `volume` is that of a particle in the
-/// reference configuration, l0^D on a lattice. Without viscosity, contact and forced displacements
-/// kinetic + strain + artificial energy is what the scheme keeps.
+/// Energies of a body in J (in two dimensions per metre of thickness), summed in double in an order that does not
+/// depend on the executor. `volume` is the volume of a particle in the reference configuration, l0^D on a lattice.
+/// Without viscosity, contact and forced displacements, the scheme conserves kinetic + strain + artificial energy.
 namespace hmps::inline HMPS_ABI {
 
-/// One particle, as a callable material sees it in diagnostics: so that the same
-/// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` serves force and energy.
+/// One particle, as the argument of a callable material in diagnostics. The same callable, `[&](const auto& at) {
+/// return MooneyRivlin{at(c1), at(c2), at(d1)}; }`, serves force and energy.
 struct OneParticle {
   std::size_t index;
 
-  /// A parameter of the particle.
+  /// The value of a parameter at this particle.
   template <class P>
   [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
     return static_cast<double>(parameter[index]);
   }
-  /// A parameter of the particle's body: `table[body[i]]`.
+  /// The value of a parameter for this particle's body: `table[body[i]]`.
   template <class P, class B>
   [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
     return static_cast<double>(table[static_cast<std::size_t>(body[index])]);
@@ -95,8 +94,8 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 }
 
 namespace detail {
-/// sum_j |r_ij - F_i r0_ij|^2 w_ij in m2, \paper{9}, of the particles of one block, from displacements u: the misfit is
-/// u_j - u_i - (F_i - 1) r0_ij.
+/// sum_j |r_ij - F_i r0_ij|^2 w_ij in m2, \paper{9}, for the particles of one block, from the displacements u: the
+/// residual of a bond is u_j - u_i - (F_i - 1) r0_ij.
 template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
 [[nodiscard]] HMPS_INLINE Lanes<K> misfit_lanes(const B& bonds, std::size_t block,
                                                 const typename B::template Slots<std::size_t{D}>& displacement,
@@ -128,13 +127,13 @@ template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
 }
 }  // namespace detail
 
-/// Energy of Kondo's stabiliser, whose gradient is \paper{19}: sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
-/// with C_i by \paper{20}, the misfits taken in the scalar of the bonds, as the force takes them. Its size beside the
-/// strain energy tells how much of the motion the deformation gradients do not see.
+/// Energy of Kondo's stabiliser, whose gradient is \paper{19}: the sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
+/// with C_i from \paper{20}. The residuals are taken in the scalar type of the bonds, as in the force. Compared with
+/// the strain energy, it shows how much of the motion the deformation gradients do not resolve.
 ///
 /// @param bonds    `BondList` or `LatticeBonds` of the body
 /// @param x        positions in m
-/// @param F        deformation gradients of the same positions
+/// @param F        deformation gradients at these positions
 /// @param modulus  E_hat in Pa: a number, a `ScalarView`, or a callable of `OneParticle`
 /// @param volume   in m^D, a number or a `ScalarView`
 template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Executor E = Serial>

@@ -12,21 +12,21 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What counts as volume kept: the interval that the paper reports in section 4.1.
+/// The interval of det F in which section 4.1 of the paper regards volume as conserved.
 struct JacobianInterval {
   double low = 0.98;
   double high = 1.02;
 };
 
-/// Statistics of det F, the change of volume of the particles.
+/// Statistics of det F, the volume ratio of the particles.
 struct JacobianStatistics {
-  std::size_t count = 0;  ///< particles that were counted
+  std::size_t count = 0;  ///< number of particles counted
   double mean = 0;
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
-  double share_within = 0;   ///< share of the particles inside the interval, bounds included
-  std::size_t smallest = 0;  ///< the particle with the smallest det F; of equals the first
-  std::size_t largest = 0;   ///< the particle with the largest det F; of equals the first
+  double share_within = 0;   ///< fraction of the particles inside the interval, bounds included
+  std::size_t smallest = 0;  ///< particle with the smallest det F; the first of equals
+  std::size_t largest = 0;   ///< particle with the largest det F; the first of equals
 };
 
 /// Counts every particle.
@@ -34,9 +34,9 @@ struct EveryParticle {
   constexpr bool operator()(std::size_t) const { return true; }
 };
 
-/// Statistics of det F over the particles for which `counts(i)` holds, such as those outside the
-/// control regions, as section 4.1 of the paper counts them. Throws `InputError` if there is none. A NaN in F gives a
-/// NaN mean; `check_state` finds the particle.
+/// Statistics of det F over the particles for which `counts(i)` holds, for example those outside the control regions,
+/// as in section 4.1 of the paper. Throws `InputError` if there is none. A NaN in F gives a NaN mean; `check_state`
+/// finds the particle.
 ///
 /// @param F  deformation gradients, \paper{11}
 template <class T, int D, class Counts = EveryParticle, Executor E = Serial>

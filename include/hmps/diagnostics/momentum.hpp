@@ -10,16 +10,16 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-/// Momenta of a body, summed in double precision in an order that does not depend on the executor.
-/// Elastic and artificial forces keep both; the viscous force of \paper{21} keeps the linear one, but damps rigid
-/// spin at free surfaces.
+/// Momenta of a body, summed in double in an order that does not depend on the executor. Elastic and artificial forces
+/// conserve both momenta. The viscous force of \paper{21} conserves linear momentum, but damps rigid rotation at free
+/// surfaces.
 namespace hmps::inline HMPS_ABI {
 
-/// What turns in `D` dimensions: a vector in three, its component out of the plane in two.
+/// An axial vector in `D` dimensions: a vector in 3D, its out-of-plane component in 2D.
 template <int D>
 using Axial = Vector<double, D == 3 ? 3 : 1>;
 
-/// a x b: a vector in three dimensions, its component out of the plane in two.
+/// a x b: a vector in 3D, its out-of-plane component in 2D.
 template <int D>
 [[nodiscard]] Axial<D> cross(const Vector<double, D>& a, const Vector<double, D>& b) {
   if constexpr (D == 3) {

@@ -17,31 +17,32 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What `find_fault` and `check_state` need beside the state.
+/// Input of `find_fault` and `check_state` besides the state.
 struct StateLimits {
-  double time = std::numeric_limits<double>::quiet_NaN();        ///< simulated time in s, for the message
-  double speed_limit = std::numeric_limits<double>::infinity();  ///< in m/s; `sound_speed` of the stiffest law
-  std::function<std::string(std::size_t)> organ_name = {};       ///< organ of a particle, for the message
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< time in s, for the message
+  double speed_limit =
+      std::numeric_limits<double>::infinity();              ///< in m/s; for example `sound_speed` of the stiffest law
+  std::function<std::string(std::size_t)> organ_name = {};  ///< organ of a particle, for the message
 };
 
-/// How a state can have gone wrong.
+/// Kinds of invalid states.
 enum class FaultKind {
-  not_finite,  ///< a NaN or an infinity in x, v or F
-  inverted,    ///< det F <= 0: the law has no value there
+  not_finite,  ///< NaN or infinity in x, v or F
+  inverted,    ///< det F <= 0, where the law is undefined
   too_fast,    ///< faster than the speed limit
 };
 
-/// Where and how a state has gone wrong.
+/// The first fault of a state.
 struct Fault {
   FaultKind kind;
   std::size_t particle;
-  double value;         ///< the component that is not finite, det F, or the speed in m/s
-  std::string message;  ///< time, particle, organ, value, and what to try
+  double value;         ///< the non-finite component, det F, or the speed in m/s
+  std::string message;  ///< time, particle, organ, value, and remedy
 };
 
 namespace detail {
 
-/// What one pass over the particles finds; merged in the order of the particles.
+/// Result of one pass over the particles; partial results are merged in particle order.
 struct StateSurvey {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::size_t not_finite = none;
@@ -141,9 +142,9 @@ template <class X, class V, class FView, int D, class E>
 
 }  // namespace detail
 
-/// Looks for what means that a simulation has gone wrong, in this order: a NaN or an infinity (the
-/// first particle that has one), det F <= 0 (the particle with the smallest), a speed beyond
-/// `limits.speed_limit` (the fastest particle). Empty if all is well. The same answer for every executor.
+/// Checks a state for signs of a failed simulation, in this order: NaN or infinity (reports the first such particle),
+/// det F <= 0 (the particle with the smallest), a speed above `limits.speed_limit` (the fastest particle). Returns an
+/// empty result for a valid state. The result does not depend on the executor.
 ///
 /// @param x  positions in m
 /// @param v  velocities in m/s
@@ -161,8 +162,7 @@ template <class X, class V, int D, Executor E = Serial>
   return detail::find_fault(x, v, static_cast<const MatrixView<const double, D>*>(nullptr), limits, execute);
 }
 
-/// Throws a `StateError` with the message of what `find_fault` finds: time, particle, its organ,
-/// the value, and what to try.
+/// Throws a `StateError` with the message of `find_fault`: time, particle, organ, value and remedy.
 template <class X, class V, class T, int D, Executor E = Serial>
 void check_state(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<T, D>& F,
                  const StateLimits& limits, const E& execute = {}) {

@@ -10,9 +10,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Executor on oneTBB's current task arena; opt-in: link TBB::tbb yourself.
+/// Executor on oneTBB's current task arena. Opt-in: link TBB::tbb yourself.
 struct OneTBB {
-  std::size_t grain = 1;  ///< Fewest loop iterations that one task runs.
+  std::size_t grain = 1;  ///< smallest number of loop iterations per task
 
   template <class Body>
   void operator()(std::size_t n, Body&& body) const {

@@ -12,15 +12,15 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Executor on OpenMP threads; opt-in: compile and link with OpenMP yourself. An exception thrown
-/// by a body reaches the caller after the loop.
+/// Executor on OpenMP threads. Opt-in: compile and link with OpenMP yourself. An exception thrown by a body reaches the
+/// caller after the loop.
 ///
 /// The threads of most OpenMP runtimes spin while they wait for each other. On a machine that is busy with other
-/// programs they take the time from each other (two threads four times as slow as one, on two cores with a load of six,
-/// and as fast as one with OMP_WAIT_POLICY=passive): leave a core to what else runs, or start the program with
-/// OMP_WAIT_POLICY=passive, which a header cannot set.
+/// programs, spinning threads take time from each other: with two cores and a load of six, two threads were four times
+/// as slow as one, and as fast as one with OMP_WAIT_POLICY=passive. Leave a core to other programs, or start the
+/// program with OMP_WAIT_POLICY=passive, which a header cannot set.
 struct OpenMP {
-  int threads = omp_get_max_threads();  ///< Number of threads, from 1 to `most_threads()`.
+  int threads = omp_get_max_threads();  ///< number of threads, from 1 to `most_threads()`
 
   template <class Body>
   void operator()(std::size_t n, Body&& body) const {
@@ -42,7 +42,7 @@ struct OpenMP {
     if (failure) std::rethrow_exception(failure);
   }
 
-  /// Four threads per processor that the program may use, or 16 on a small machine.
+  /// Four threads per available processor, at least 16.
   [[nodiscard]] static int most_threads() {
     static const int most = std::max(16, 4 * omp_get_num_procs());
     return most;

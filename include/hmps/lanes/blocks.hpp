@@ -20,9 +20,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The particles in the order in which the sweeps visit them: `block()` of them at a time, each in
-/// a lane of its own. The place of a particle is its slot; the last block is filled up with empty
-/// slots. Holds what both models of bonds share: the reference configuration (\paper{12}).
+/// The particles of a body in the order in which the sweeps visit them. A sweep works on one block of `width` particles
+/// at a time, one particle per lane. The position of a particle in this order is its slot; unused slots of the last
+/// block are empty. Base class of all bonds: holds the reference configuration (\paper{12}).
 template <class K, int D>
 class Blocks : public detail::Anchored {
  public:
@@ -61,18 +61,18 @@ class Blocks : public detail::Anchored {
     return K(1) / shape_(inverse_trace, shape_slot(slot_of_[particle]));
   }
 
-  /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}): of the
-  /// full lattice in `LatticeBonds`, of the particle with the largest sum of weights in `BondList`.
+  /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}). `LatticeBonds` takes those
+  /// of the full lattice, `BondList` those of the particle with the largest sum of weights.
   [[nodiscard]] double standard_density() const { return standard_density_; }
   [[nodiscard]] double standard_lambda() const { return standard_lambda_; }
 
-  /// Bytes that the reference configuration takes, without the bonds themselves.
+  /// Memory of the reference configuration in bytes, without the bonds.
   [[nodiscard]] std::size_t bytes() const {
     return (particle_of_.size() + slot_of_.size() + shape_block_.size()) * sizeof(Index) + consecutive_.size() +
            reference_.bytes() + shape_.bytes();
   }
 
-  // What follows is read by the sweeps, lane by lane.
+  // The sweeps read what follows, one block of lanes at a time.
 
   [[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> shape_inverse_lanes(std::size_t block) const {
     Matrix<Lanes<K>, D> inverse;
@@ -89,16 +89,16 @@ class Blocks : public detail::Anchored {
   [[nodiscard]] HMPS_INLINE Lanes<K> asymmetry_lanes(std::size_t block, int c) const {
     return shape_lanes(asymmetry + static_cast<std::size_t>(c), block);
   }
-  /// Whether the lanes of `block` hold particles that follow each other in the user's arrays.
+  /// Whether the particles of `block` are consecutive in the user's arrays.
   [[nodiscard]] HMPS_INLINE bool consecutive(std::size_t block) const { return consecutive_[block] != 0; }
-  /// Where the sweeps read farthest ahead for `block`, if the order of the slots tells; its own slots otherwise.
+  /// The largest slot that the sweeps read for `block`, if it is known; otherwise that of the block itself.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const { return block * width; }
   [[nodiscard]] HMPS_INLINE const double* reference_slots(int c) const {
     return &reference_(static_cast<std::size_t>(c), 0);
   }
 
  protected:
-  /// Slots in the order of `order`, which holds every particle once.
+  /// Assigns the slots in the order of `order`, a permutation of all particles.
   template <class T>
   Blocks(const VectorView<T, D>& reference, const std::vector<Index>& order)
       : particle_of_((order.size() + width - 1) / width * width, none),
@@ -121,7 +121,7 @@ class Blocks : public detail::Anchored {
     std::iota(shape_block_.begin(), shape_block_.end(), Index{0});
   }
 
-  /// Keeps what the sweeps need of the neighbourhood of `particle`: A^-1, sum w r0 and tr A.
+  /// Stores the neighbourhood sums of `particle`: A^-1, sum w r0 and tr A.
   void keep_shape(std::size_t particle, const Matrix<double, D>& shape_inverse, const Vector<double, D>& asymmetric_sum,
                   double trace) {
     const std::size_t slot = slot_of_[particle];
@@ -131,8 +131,8 @@ class Blocks : public detail::Anchored {
     }
     shape_(inverse_trace, slot) = static_cast<K>(1.0 / trace);
   }
-  /// To be called when all shapes are kept: blocks whose particles have all the same neighbourhood, as inside a lattice
-  /// and along its faces, share one copy of it from then on.
+  /// Call this once after the last `keep_shape`. Blocks whose particles all have the same neighbourhood, such as those
+  /// inside a lattice or along its faces, then share one copy.
   void share_shapes() {
     std::map<std::array<K, shape_components>, Index> shared;
     std::vector<std::size_t> kept;  // blocks
@@ -179,7 +179,7 @@ class Blocks : public detail::Anchored {
   std::vector<std::uint8_t> consecutive_;
   SlotArrays<double, std::size_t{D}> reference_;
   Shapes shape_;
-  std::vector<Index> shape_block_;  ///< Where in shape_ the lanes of each block are.
+  std::vector<Index> shape_block_;  ///< Index into shape_ of the lanes of each block.
   double standard_density_ = 0;
   double standard_lambda_ = 0;
 };

@@ -16,9 +16,9 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// Lanes in bytes: those of the largest registers there are, so that all others are filled as well.
+/// Bytes of all lanes: the size of the largest vector registers in use today.
 inline constexpr std::size_t lanes_bytes = 64;
-/// The integers of the size of `T`, as which masks are kept.
+/// The integer type of the size of `T`, used for masks.
 template <class T>
 using BitsOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
@@ -30,23 +30,23 @@ using BitsOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 #else
 #define HMPS_REGISTER_BYTES 16
 #endif
-/// What one register of the instruction set in use holds of lanes. Registers live inside one function each: handing
-/// one to another function would depend on compiler flags.
+/// The lanes in one register of the target's instruction set. Never pass a register to another function: its calling
+/// convention depends on compiler flags.
 template <class T, std::size_t bytes = HMPS_REGISTER_BYTES>
 struct Register {
   typedef T Vector __attribute__((vector_size(bytes)));
   typedef BitsOf<T> Mask __attribute__((vector_size(bytes)));
   static constexpr int width = static_cast<int>(bytes / sizeof(T));
 };
-/// Visits lanes a register at a time, from lane `l` on: GCC keeps vectors that are larger than a register in memory
-/// from one operation to the next, at eight times the cost.
+/// Visits the lanes one register at a time, starting at lane `l`. GCC spills vectors larger than a register to memory
+/// after every operation, which costs a factor of eight.
 #define HMPS_EACH_REGISTER                                                                       \
   _Pragma("GCC unroll 4") for (int l = 0; l < static_cast<int>(detail::lanes_bytes / sizeof(T)); \
                                l += detail::Register<T>::width)
 #endif
 
-/// Copies lanes through registers, as wide as those that the next operation reads: what is written in pieces can only
-/// be read as a whole after it has reached the cache.
+/// Copies lanes through registers of the width that the next operation reads. A load that spans several narrower stores
+/// would have to wait for the cache.
 template <class T>
 HMPS_INLINE void copy_lanes(T* target, const T* source) {
 #if defined(HMPS_EACH_REGISTER)
@@ -62,14 +62,13 @@ HMPS_INLINE void copy_lanes(T* target, const T* source) {
 
 }  // namespace detail
 
-/// `width` numbers that are worked on together: the scalar type in which the sweeps over particles
-/// evaluate laws and terms, one particle in each lane. Behaves as a number in generic code
-/// (`+ - * /`, comparisons that give a `LaneMask`, `select`, and `sqrt`, `log`, `exp`, `pow`, `abs`,
-/// `min`, `max` found by argument-dependent lookup), also inside an Eigen matrix.
+/// A pack of `width` numbers, one particle per lane: the scalar type in which the sweeps evaluate laws and terms.
+/// Generic code uses it like a number: `+ - * /`, comparisons (which return a `LaneMask`), `select`, and `sqrt`, `log`,
+/// `exp`, `pow`, `abs`, `min`, `max` found by argument-dependent lookup. It may be the scalar of an Eigen matrix.
 ///
-/// The width follows from `T` alone, 64 bytes, so that the layout of nothing depends on the
-/// instruction set a translation unit is compiled for; each operation takes as many registers as it
-/// must. It is kept as a plain array for the same reason: passing it never uses a vector register.
+/// The size is 64 bytes for every `T` and every instruction set, so that no layout depends on compiler flags; each
+/// operation uses as many registers as it needs. The numbers are stored as a plain array for the same reason: passing
+/// it never uses a vector register.
 template <class T>
 struct alignas(detail::lanes_bytes) Lanes {
   static_assert(std::floating_point<T>, "hmps: lanes hold float or double");
@@ -85,7 +84,7 @@ struct alignas(detail::lanes_bytes) Lanes {
     detail::copy_lanes(lane, other.lane);
     return *this;
   }
-  /// The same number in every lane.
+  /// Sets every lane to the same number.
   template <class U>
   requires std::is_arithmetic_v<U> HMPS_INLINE Lanes(U value) {
     const T x = static_cast<T>(value);
@@ -100,7 +99,7 @@ struct alignas(detail::lanes_bytes) Lanes {
   }
 };
 
-/// The outcome of comparing `Lanes<T>`: all bits of a lane set, or none.
+/// The result of comparing `Lanes<T>`: in each lane all bits are set, or none.
 template <class T>
 struct alignas(detail::lanes_bytes) LaneMask {
   typename Lanes<T>::Bits lane[static_cast<std::size_t>(Lanes<T>::width)];
@@ -108,7 +107,7 @@ struct alignas(detail::lanes_bytes) LaneMask {
 
 namespace detail {
 
-/// Asks for the cache line of `address`; never fails.
+/// Prefetches the cache line of `address`; never faults.
 HMPS_INLINE void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);
@@ -211,7 +210,7 @@ template <class T>
   return result;
 }
 
-/// The sixteen (or eight) lanes that lie from `source` on, which need not be aligned.
+/// Loads the lanes from `source`, which need not be aligned.
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> load(const T* source) {
   Lanes<T> result;
@@ -219,7 +218,7 @@ template <class T>
   return result;
 }
 
-/// Writes the lanes to `target` on, which need not be aligned.
+/// Stores the lanes at `target`, which need not be aligned.
 template <class T>
 HMPS_INLINE void store(T* target, const Lanes<T>& a) {
   detail::copy_lanes(target, a.lane);
@@ -264,7 +263,7 @@ template <class T, class F>
   return result;
 }
 
-/// Applies `f` to each lane: the way in for functions that have no vector form.
+/// Applies `f` to each lane, for functions without a vector form.
 template <class T, class F>
 [[nodiscard]] HMPS_INLINE Lanes<T> each(const Lanes<T>& a, F&& f) {
   Lanes<T> result;

@@ -16,17 +16,17 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Reference positions from which r0 of a bond is computed when it is needed, to the rounding of `K` and of opposite
-/// sign from both ends, however large the body. In double they are the positions themselves. In float they are whole
-/// numbers of 2^-30 of the radius of bonds, rounded up to a power of two, of which the last 32 bits are kept: their
-/// differences are exact as long as they are shorter than that radius.
+/// Reference positions from which the sweeps compute r0 of a bond. The result is antisymmetric in the two ends and
+/// correct to the rounding of `K`, however large the body. In double, the positions themselves are stored. In float,
+/// each position is an integer multiple of 2^-30 of the bond radius (rounded up to a power of two), of which the lowest
+/// 32 bits are stored: differences are exact if they are shorter than that radius.
 template <class K, int D>
 class Places {
   static constexpr bool fixed = std::is_same_v<K, float>;
 
  public:
   Places() = default;
-  /// The reference positions of `blocks`, for bonds up to `radius` (m).
+  /// Stores the reference positions of `blocks` for bonds up to `radius` (m).
   Places(const Blocks<K, D>& blocks, double radius) {
     if constexpr (fixed) {
       const double unit = std::ldexp(1.0, std::ilogb(radius) - 29);
@@ -41,14 +41,14 @@ class Places {
     }
   }
 
-  /// Component `c` of the positions of the slots from 0 on, as far as the margin of `SlotArrays` reaches.
+  /// Component `c` of the positions, from slot 0, with the same margin as `SlotArrays`.
   [[nodiscard]] HMPS_INLINE const K* slots(const Blocks<K, D>& blocks, int c) const {
     if constexpr (fixed)
       return &positions_(static_cast<std::size_t>(c), 0);
     else
       return blocks.reference_slots(c);
   }
-  /// A component of r0 (m) from what `slots` has for a neighbour and for the particle itself.
+  /// One component of r0 (m), from the stored positions of the neighbour and of the particle itself.
   [[nodiscard]] HMPS_INLINE K offset(K neighbour, K own) const {
     if constexpr (fixed) {
       std::uint32_t a, b;

@@ -9,9 +9,9 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Four numbers that are worked on together: a vector of two or three components and room for one more
-/// number. Size and alignment are the same for any instruction set; handed over by reference only,
-/// because passing by value is not.
+/// Four numbers that fill one vector register: a vector of two or three components and up to two spare numbers. Size
+/// and alignment are the same for every instruction set. Pass it by reference only: passing by value depends on the
+/// instruction set.
 #if defined(__GNUC__) || defined(__clang__)
 template <class S>
 struct QuadOf {
@@ -55,8 +55,8 @@ HMPS_INLINE void spread(const Eigen::MatrixBase<Derived>& v, Quad<S>& quad) {
   for (int c = 0; c < v.size(); ++c) quad[static_cast<std::size_t>(c)] = v[c];
 }
 
-/// The smaller of `s` and 1; makes `quad` zero where `s` is not below 1. Whether it is is as good as random where it is
-/// asked for, so that nothing must branch on it: compilers do on a selection of one number, not of four.
+/// The smaller of `s` and 1; sets `quad` to zero where `s` is not below 1. The outcome is unpredictable, so the code
+/// must not branch. Compilers do branch on a selection of one number, but not of four.
 template <class S>
 [[nodiscard]] HMPS_INLINE S cut_at_one(S s, Quad<S>& quad) {
 #if defined(__GNUC__) || defined(__clang__)

@@ -14,7 +14,7 @@ namespace hmps::inline HMPS_ABI {
 namespace detail {
 
 #if defined(__GNUC__) || defined(__clang__)
-/// Lanes of one register, a half of which lies at `first` and the other at `second`.
+/// The lanes of one register; the first half lies at `first`, the second half at `second`.
 template <class T, int... k>
 HMPS_INLINE void join_halves(T* target, const T* first, const T* second, std::integer_sequence<int, k...>) {
   typename Register<T, lanes_bytes / 2>::Vector a, b;
@@ -25,7 +25,7 @@ HMPS_INLINE void join_halves(T* target, const T* first, const T* second, std::in
 }
 #endif
 
-/// The first half of the lanes that lie from `first` on and the second half of those from `second` on.
+/// Loads the first half of the lanes from `first` and the second half from `second`.
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> load_halves(const T* first, const T* second) {
   constexpr int width = Lanes<T>::width;
@@ -50,9 +50,9 @@ template <class T>
 
 }  // namespace detail
 
-/// `N` numbers per slot in the scalar type of the kernels, an array for each component: bonds read those of neighbours
-/// that follow each other, a run of lanes at a time. A run may hang over either end of an array by as many
-/// slots as there are lanes, so that it needs no test.
+/// `N` numbers per slot in the scalar type of the sweeps, stored as one array per component. Bonds read the numbers of
+/// neighbours with consecutive slots as one run of lanes. Each array has a margin of one block at both ends, so that a
+/// run that crosses an end needs no test.
 template <class K, std::size_t N>
 class SlotArrays {
  public:
@@ -65,7 +65,7 @@ class SlotArrays {
   [[nodiscard]] HMPS_INLINE const K& operator()(std::size_t component, std::size_t slot) const {
     return values_[component * pitch_ + margin + slot];
   }
-  /// A component of the block of slots from `slot` on.
+  /// One component of the block that starts at `slot`.
   [[nodiscard]] HMPS_INLINE Lanes<K> lanes(std::size_t component, std::size_t slot) const {
     return load(&(*this)(component, slot));
   }
@@ -73,7 +73,8 @@ class SlotArrays {
     store(&(*this)(component, slot), numbers);
   }
 
-  /// The lanes of the slots from `first` on, which may be one of the margin; `run[component]` reads one component.
+  /// A run: the lanes of consecutive slots from `first`, which may lie in the margin. `run[component]` loads one
+  /// component.
   struct Run {
     const SlotArrays& arrays;
     std::ptrdiff_t first;
@@ -83,8 +84,7 @@ class SlotArrays {
   };
   [[nodiscard]] HMPS_INLINE Run run(std::ptrdiff_t first) const { return {*this, first}; }
 
-  /// A run for each half of the lanes: the first half of that from `first` on, the second half of that from `second`
-  /// on.
+  /// Two half runs: the first half of the lanes from `first`, the second half from `second`.
   struct SplitRun {
     const SlotArrays& arrays;
     std::ptrdiff_t first, second;
@@ -97,8 +97,7 @@ class SlotArrays {
     return {*this, first, second};
   }
 
-  /// Asks for all components of the lanes from `slot` on, which are going to be read soon; nothing happens beyond the
-  /// last slot.
+  /// Prefetches all components of the lanes from `slot`. Does nothing beyond the last slot.
   HMPS_INLINE void prefetch(std::size_t slot) const {
     if (slot + 2 * margin >= pitch_) return;
     for (std::size_t k = margin + slot; k < values_.size(); k += pitch_) detail::prefetch(values_.data() + k);
@@ -107,8 +106,7 @@ class SlotArrays {
 
  private:
   static constexpr std::size_t margin = static_cast<std::size_t>(Lanes<K>::width);
-  /// An odd number of cache lines, so that equal slots of several components do not compete for the
-  /// same set of a cache.
+  /// The stride is an odd number of cache lines, so that the components of one slot map to different cache sets.
   static constexpr std::size_t pitch(std::size_t slots) {
     const std::size_t lines = (slots + 2 * margin + margin - 1) / margin;
     return (lines | 1) * margin;

@@ -15,8 +15,8 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Brings `view` of the particles of `block` into `slots`, in the scalar type of the kernels.
-/// `value(number, slot, component)` is what is kept of each number.
+/// Copies `view` of the particles of `block` into `slots`, converted to the scalar type of the sweeps. `value(number,
+/// slot, component)` transforms each number on the way.
 template <class K, int D, class T, class Slots, class Value>
 HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view, Slots& slots,
                        Value&& value) {
@@ -26,7 +26,7 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   for (int c = 0; c < D; ++c) {
     const auto component = static_cast<std::size_t>(c);
     if (consecutive) {
-      Lanes<K> staged;  // apart from the slots: the compiler sees that no source is overwritten, and works in registers
+      Lanes<K> staged;  // a local copy, so that the compiler knows that no source is overwritten
       const std::size_t i = blocks.particle(first);
       if (view.stride() == static_cast<std::ptrdiff_t>(sizeof(T))) {
         const T* source = view.base(c) + i;
@@ -48,8 +48,7 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
 }
 
-/// The displacement (m) of a particle in the middle of the order of the sweeps, zero where it is not
-/// finite.
+/// The displacement (m) of the particle in the middle of the sweep order; zero if it is not finite.
 template <class K, int D, class T>
 [[nodiscard]] Vector<double, D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
   Vector<double, D> common = Vector<double, D>::Zero();
@@ -62,10 +61,9 @@ template <class K, int D, class T>
   return common;
 }
 
-/// Displacements from the reference configuration less those that all particles have in `common`,
-/// taken in double precision before they are rounded to that of the kernels: what a bond needs of a
-/// position is lost in the position's leading digits, and how far the body has travelled is nothing
-/// to a bond.
+/// Stages displacements from the reference configuration minus `common`. The difference is taken in double before it is
+/// rounded to the scalar type of the sweeps: rounding the positions themselves would lose the digits that a bond needs,
+/// and a common displacement does not change any bond.
 template <class K, int D, class T, class Slots>
 HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& x,
                                     const Vector<double, D>& common, Slots& slots) {
@@ -74,8 +72,8 @@ HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t bloc
   });
 }
 
-/// Hands `N` numbers of each particle of `block` out to the user's `view`; `lanes(component)` are those
-/// of the particles in their lanes, and `put(entry, number, particle)` is what becomes of one.
+/// Writes `N` numbers per particle of `block` to the user's `view`. `lanes(component)` returns the numbers; `put(entry,
+/// number, particle)` stores one of them.
 template <class K, int D, class T, int N, class Component, class Put>
 HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view, Component&& lanes,
                          Put&& put) {

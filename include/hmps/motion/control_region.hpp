@@ -19,19 +19,17 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A control region (section 3.1 of the paper): particles that shift by forced displacement. Their
-/// velocity is prescribed so that the following drift, \paper{4}, lands on the motion; whatever
-/// forces they received before is overwritten. Elastic neighbours feel them through the bonds,
-/// contact sees them as any other particle.
+/// A control region (section 3.1 of the paper): particles with forced displacement. Their velocity is prescribed so
+/// that the following drift, \paper{4}, ends on the motion, whatever forces they received before. Bonds transmit their
+/// motion to elastic neighbours; contact treats them like any other particle.
 ///
-/// `reference` is a view of the reference positions of all particles; the caller keeps them alive.
-/// `M` is a `Motion`; the default holds any that returns a `Pose`, so that regions of different
-/// motions fit one vector.
+/// `reference` is a view of the reference positions of all particles; it must outlive the region. `M` is a `Motion`.
+/// The default holds any motion that returns a `Pose`, so that regions with different motions fit into one vector.
 template <class S, int D, class M = std::function<Pose<double, D>(double)>>
 requires Motion<M, D>
 class ControlRegion {
  public:
-  /// Throws `InputError` for a region without particles, an index beyond the view, one given twice, or a reference
+  /// Throws `InputError` if the region has no particle, and for an index out of range, a repeated index, or a reference
   /// position that is not finite.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
@@ -52,22 +50,21 @@ class ControlRegion {
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
   [[nodiscard]] const M& motion() const { return motion_; }
 
-  /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` for a `k` that
-  /// it does not have.
+  /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` if `k` is out of
+  /// range.
   [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
     require(k < particles_.size(), "hmps: the place of particle ", k, " of a control region is asked for, but it has ",
             particles_.size(), " particles, counted from 0");
     return motion_(t)(reference_[particles_[k]].template cast<double>());
   }
 
-  /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed
-  /// position at `t_next` = t + dt (s). Call it after the last kick and before the drift, and in a
-  /// scene with contact also before the contact: internal forces kick a prescribed particle like any
-  /// other, and a wall with that velocity would rub where it does not move. The error of rounding in
-  /// `x` does not add up over steps.
+  /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed position at
+  /// `t_next` = t + dt (s). Call it after the last kick and before the drift; in a scene with contact, also before the
+  /// contact. Internal forces kick a prescribed particle like any other, and a wall with such a velocity would cause
+  /// friction where it does not move. Rounding errors in `x` do not accumulate over steps.
   ///
-  /// `speed_limit` (m/s): throws `StateError`, naming particle and speed, where the motion asks for
-  /// more or is not finite, as when a run starts in the middle of a motion without `place`.
+  /// Throws `StateError`, with particle and speed, if the motion exceeds `speed_limit` (m/s) or is not finite, as it
+  /// may when a run starts in the middle of a motion without `place`.
   template <class X, class V, Executor E = Serial>
   void prescribe(double t_next, double dt, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute = {},
                  double speed_limit = std::numeric_limits<double>::max()) const {
@@ -94,16 +91,16 @@ class ControlRegion {
     });
   }
 
-  /// Takes the force densities `f` from the region's particles, so that a kick leaves them the velocities that
-  /// `prescribe` gave them.
+  /// Sets the force densities `f` of the region's particles to zero, so that a kick does not change the velocities that
+  /// `prescribe` has set.
   template <class F>
   void unload(const VectorView<F, D>& f) const {
     require_size(f, reference_.size(), "force densities");
     for (const Index i : particles_) f.set(i, Vector<double, D>(Vector<double, D>::Zero()));
   }
 
-  /// Puts the region's particles where they are at time `t` (s), with the velocity of the motion
-  /// there (central difference over 2 microseconds): the start of a run within a motion.
+  /// Moves the region's particles to their prescribed positions at time `t` (s), with the velocity of the motion
+  /// (central difference over 2 microseconds). Use it to start a run in the middle of a motion.
   template <class X, class V>
   void place(double t, const VectorView<X, D>& x, const VectorView<V, D>& v) const {
     require_size(x, reference_.size(), "positions");

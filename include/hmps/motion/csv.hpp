@@ -20,10 +20,10 @@ namespace hmps::inline HMPS_ABI {
 
 /// A table of numbers with named columns, as read from a CSV file.
 struct Table {
-  std::string source;              ///< file name, for messages
-  std::vector<std::string> names;  ///< of the columns
-  std::vector<double> values;      ///< row by row
-  std::vector<std::size_t> lines;  ///< line of the file, from 1, of each row
+  std::string source;              ///< file name, for error messages
+  std::vector<std::string> names;  ///< column names
+  std::vector<double> values;      ///< values in row-major order
+  std::vector<std::size_t> lines;  ///< line number in the file (from 1) of each row
 
   [[nodiscard]] std::size_t rows() const { return lines.size(); }
   [[nodiscard]] std::size_t columns() const { return names.size(); }
@@ -35,7 +35,7 @@ struct Table {
     return std::find(names.begin(), names.end(), name) != names.end();
   }
 
-  /// The index of the column `name`. Throws `InputError` that lists the first twenty columns if there is none.
+  /// The index of the column `name`. Throws `InputError` if there is none, with a list of the first twenty columns.
   [[nodiscard]] std::size_t column(std::string_view name) const {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
@@ -65,11 +65,10 @@ void for_each_cell(std::string_view line, Use&& use) {
 
 }  // namespace detail
 
-/// Reads comma-separated numbers: a header line of distinct column names, then one row of as many
-/// finite numbers per line. Blank lines and what follows a `#` are skipped, blanks around cells are
-/// ignored, lines may end in CR LF. `source` names the text in messages. Throws `InputError` with
-/// source, line and column at the first cell that is not a finite number, a row with too few or too
-/// many cells, a name that is empty or given twice, and for a text without header.
+/// Parses comma-separated numbers: a header line of distinct column names, then one row per line with one finite number
+/// per column. Ignores blank lines, text after `#` and blanks around cells; lines may end in CR LF. `source` names the
+/// text in messages. Throws `InputError` with source, line and column at the first cell that is not a finite number,
+/// and for rows with too few or too many cells, empty or repeated column names, and text without a header.
 [[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
   Table table;
   table.source = std::move(source);
@@ -111,12 +110,12 @@ void for_each_cell(std::string_view line, Use&& use) {
   return table;
 }
 
-/// Reads the file `path` with `parse_csv`. Throws `InputError` also if it cannot be read.
+/// Reads the file `path` with `parse_csv`. Also throws `InputError` if the file cannot be read.
 [[nodiscard]] inline Table read_csv(const std::string& path) { return parse_csv(detail::read_text(path), path); }
 
-/// Keyframes from the columns `names` of a table, times from its column `time` in seconds; values
-/// are multiplied by `scale` (1e-3 for millimetres, pi/180 for degrees). Throws `InputError` for a
-/// missing column, an empty table, and times that do not increase, with the line.
+/// Makes keyframes from the columns `names` of a table, with the times in its column `time` (s). Multiplies the values
+/// by `scale` (1e-3 for millimetres, pi/180 for degrees). Throws `InputError`, with the line, for a missing column, an
+/// empty table, and times that do not increase.
 template <std::size_t N>
 [[nodiscard]] Keyframes<static_cast<int>(N)> keyframes(const Table& table, const std::array<std::string_view, N>& names,
                                                        double scale = 1, std::string_view time = "t") {

@@ -16,29 +16,29 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Value of a track at one time: a number for `N` = 1, else `N` numbers.
+/// The value of a track: a number for `N` = 1, otherwise an array of `N` numbers.
 template <int N>
 struct Keyframe {
   using Value = std::conditional_t<N == 1, double, Vector<double, N>>;
   double time = 0;  ///< s
-  Value value{};    ///< m or rad, as the motion that uses it says
+  Value value{};    ///< in m or rad, depending on the motion
 };
 
-/// A track through keyframes: in each component the monotone cubic of Fritsch and Carlson (slopes
-/// by the weighted harmonic mean of Fritsch and Butland), with zero slope at both ends and constant
-/// before the first and after the last keyframe. Value and rate are continuous for all times,
-/// nothing overshoots a keyframe, and a component that is the same in two neighbouring keyframes
-/// stays between them. Always double: a motion is cheap, and time in float loses steps.
+/// Interpolates keyframes. Each component is the monotone cubic of Fritsch and Carlson (slopes from the weighted
+/// harmonic mean of Fritsch and Butland), with zero slope at both ends, and constant before the first and after the
+/// last keyframe. Value and rate are continuous; no component overshoots a keyframe, and a component that is equal in
+/// two neighbouring keyframes is constant between them. Always in double: evaluating a motion is cheap, and time in
+/// float loses steps.
 ///
-/// A run that starts later than the first keyframe starts inside of the motion: place its regions
-/// at that time (`ControlRegion::place`), or the first step makes up for what was missed.
+/// A run that starts after the first keyframe starts in the middle of the motion. Move its regions to that time first
+/// (`ControlRegion::place`); otherwise the first step makes up for the motion before it.
 template <int N>
 class Keyframes {
  public:
   using Value = typename Keyframe<N>::Value;
 
-  /// Keyframes with strictly increasing times. Throws `InputError` if there is none, and at the
-  /// first, counted from 0, that is not finite or out of order.
+  /// Takes keyframes with strictly increasing times. Throws `InputError` if there is none, and at the first one,
+  /// counted from 0, that is not finite or out of order.
   explicit Keyframes(std::vector<Keyframe<N>> keys) : keys_(std::move(keys)), slopes_(keys_.size(), zero()) {
     require(!keys_.empty(), "hmps: a track has no keyframe; give at least one time and value");
     for (std::size_t k = 0; k < keys_.size(); ++k) {
@@ -64,7 +64,7 @@ class Keyframes {
     const std::size_t k = piece(time);
     const double h = keys_[k + 1].time - keys_[k].time;
     const double s = (time - keys_[k].time) / h;
-    // Written around the nearer keyframe's value, so that equal neighbours give exactly it.
+    // Evaluated relative to the nearer keyframe, so that equal neighbours reproduce their value exactly.
     const double rise = s * s * (3 - 2 * s);
     return keys_[k].value + rise * (keys_[k + 1].value - keys_[k].value) +
            h * s * (1 - s) * ((1 - s) * slopes_[k] - s * slopes_[k + 1]);

@@ -9,7 +9,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Rotation matrix of the angle `angle` (rad, counter-clockwise) in the plane.
+/// Rotation matrix of `angle` (rad, counter-clockwise) in the plane.
 template <class S>
 [[nodiscard]] Matrix<S, 2> rotation(S angle) {
   const S c = std::cos(angle);
@@ -28,7 +28,7 @@ template <class S>
 }
 
 namespace detail {
-/// sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, by series where the quotients would cancel.
+/// sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, as series where the quotients would cancel.
 template <class S>
 struct RotationCoefficients {
   S first, second, third;
@@ -56,8 +56,8 @@ template <class S>
   return Matrix<S, 3>::Identity() + k.first * w + k.second * w * w;
 }
 
-/// Angular velocity (rad/s, in space) of a rotation vector that changes at `rate` (rad/s). They
-/// differ as soon as the axis turns.
+/// Angular velocity (rad/s, spatial) of a rotation vector that changes at `rate` (rad/s). The two differ if the axis
+/// turns.
 template <class S>
 [[nodiscard]] Vector<S, 3> angular_velocity(const Vector<S, 3>& vector, const Vector<S, 3>& rate) {
   const detail::RotationCoefficients<S> k(vector.norm());
@@ -65,12 +65,12 @@ template <class S>
   return rate + k.second * first + k.third * vector.cross(first);
 }
 
-/// Rigid placement of a body: where a reference position goes. `pose(X)` is
-/// rotation (X - pivot) + pivot + translation. The default is rest.
+/// A rigid displacement of a body: `pose(X)` is rotation (X - pivot) + pivot + translation. The default is the
+/// identity.
 template <class S, int D>
 struct Pose {
   Matrix<S, D> rotation = Matrix<S, D>::Identity();  ///< orthogonal, determinant 1
-  Vector<S, D> pivot = Vector<S, D>::Zero();         ///< m, point of the reference that only translates
+  Vector<S, D> pivot = Vector<S, D>::Zero();         ///< in m; the reference point that only translates
   Vector<S, D> translation = Vector<S, D>::Zero();   ///< m
 
   /// The position of the material point with reference position `reference`.
@@ -79,19 +79,19 @@ struct Pose {
   }
 };
 
-/// Where `first`, then `second` takes a point: `compose(second, first)(X) == second(first(X))`.
+/// The composition of two poses: `compose(second, first)(X) == second(first(X))`.
 template <class S, int D>
 [[nodiscard]] Pose<S, D> compose(const Pose<S, D>& second, const Pose<S, D>& first) {
   return {second.rotation * first.rotation, first.pivot, second(first(first.pivot)) - first.pivot};
 }
 
-/// The pose that undoes `pose`.
+/// The inverse of `pose`.
 template <class S, int D>
 [[nodiscard]] Pose<S, D> inverse(const Pose<S, D>& pose) {
   return {pose.rotation.transpose(), pose.pivot + pose.translation, -pose.translation};
 }
 
-/// How fast a pose changes.
+/// The rate of change of a pose.
 template <class S, int D>
 struct PoseRate {
   /// rad/s: one number in 2D, a vector in 3D.

@@ -11,15 +11,15 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A motion in `D` dimensions. Valid expression: `motion(t)(X)`, the position at time `t` (s) of the
-/// material point with reference position `X` (m), both in double. Satisfied by anything that
-/// returns a `Pose`, and by a user's lambda that returns a lambda, which need not be rigid.
+/// A motion in `D` dimensions: `motion(t)(X)` is the position at time `t` (s) of the material point with reference
+/// position `X` (m), both in double. Models: anything that returns a `Pose`; a lambda that returns a lambda, which need
+/// not be rigid.
 template <class M, int D>
 concept Motion = requires(const M& motion, double t, const Vector<double, D>& reference) {
   { motion(t)(reference) } -> std::convertible_to<Vector<double, D>>;
 };
 
-/// The motion of what stays where it is.
+/// No motion.
 template <int D>
 struct Fixed {
   [[nodiscard]] Pose<double, D> operator()(double) const { return {}; }
@@ -57,7 +57,7 @@ struct RigidMotion {
   [[nodiscard]] Pose<double, D> operator()(double t) const {
     return {rotation<double>(turn.value(t)), pivot, translation.value(t)};
   }
-  /// How fast the pose changes at `t`.
+  /// The rate of change of the pose at `t`.
   [[nodiscard]] PoseRate<double, D> rate(double t) const {
     PoseRate<double, D> rate;
     rate.linear = translation.rate(t);
@@ -69,8 +69,8 @@ struct RigidMotion {
   }
 };
 
-/// Motion of a region that takes part in the motion `carrier` and moves by `own` within it, as the
-/// arytenoids do on the larynx: `own` is described in the reference configuration of the carrier.
+/// The motion of a region that moves with `carrier` and by `own` relative to it, such as the arytenoids on the larynx.
+/// `own` is described in the reference configuration of the carrier.
 template <class Carrier, class Own>
 [[nodiscard]] auto carried(Carrier carrier, Own own) {
   return [carrier = std::move(carrier), own = std::move(own)](double t) {

@@ -20,9 +20,8 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// The sites of a simple cubic lattice in a box: `first[c] <= index < first[c] + count[c]`.
-/// Coordinates are computed in double for every scalar, so that a site has one position however
-/// large the box.
+/// The sites of a simple cubic lattice in a box: `first[c] <= index < first[c] + count[c]`. Coordinates are computed in
+/// double for every scalar type, so that the position of a site does not depend on the box.
 template <int D>
 struct LatticeSites {
   double spacing = 0;
@@ -35,12 +34,12 @@ struct LatticeSites {
   }
 };
 
-/// Sites that may be sampled at most: 2^33, about ten minutes of sampling. More is a spacing in
-/// millimetres or a box in micrometres.
+/// The largest number of sites to sample: 2^33, about ten minutes. More indicates a spacing in millimetres or a box in
+/// micrometres.
 inline constexpr double most_sites = 8589934592.0;
 
-/// What the rounding of corners, origin and spacing to `S` can move a site of `box` against a face by, in m, with a
-/// margin: each is off by half a unit in the last place at most.
+/// Bound in m, with a margin, for how far rounding to `S` can shift a site relative to a face of `box`: corners, origin
+/// and spacing are each off by at most half a unit in the last place.
 template <class S, int D>
 [[nodiscard]] double coordinate_rounding(const Box<S, D>& box, const Vector<S, D>& origin) {
   const S largest =
@@ -48,7 +47,7 @@ template <class S, int D>
   return 8 * static_cast<double>(std::numeric_limits<S>::epsilon()) * static_cast<double>(largest);
 }
 
-/// Whether the sites of a lattice lie inside of a shape, by the rule for sites on its surface.
+/// Decides whether lattice sites lie inside a shape, with a rule for sites on its surface.
 template <class F, class S, int D>
 class InsideShape {
  public:
@@ -56,7 +55,7 @@ class InsideShape {
       : shape_(shape),
         on_surface_(
             static_cast<S>(std::max(1e-9 * static_cast<double>(spacing), coordinate_rounding<S, D>(box, origin)))) {
-    // Much further than the rounding; no two alike, so that also faces such as x = y are left on one side.
+    // Larger than the rounding, and different in each direction, so that sites on faces such as x = y fall on one side.
     constexpr S share[3] = {S(8), S(6.5), S(5.25)};
     for (int c = 0; c < D; ++c) aside_[c] = share[c] * on_surface_;
   }
@@ -91,7 +90,7 @@ template <class S, int D>
   LatticeSites<D> sites;
   sites.spacing = static_cast<double>(spacing);
   sites.origin = origin.template cast<double>();
-  // A box that ends on a site should hold it, whichever way its coordinates were rounded.
+  // A box that ends on a site should contain it, whichever way its coordinates were rounded.
   const double slack = std::max(1e-5, coordinate_rounding<S, D>(box, origin) / sites.spacing);
   double product = 1;
   for (int c = 0; c < D; ++c) {
@@ -108,7 +107,7 @@ template <class S, int D>
   return sites;
 }
 
-/// Joins the points found slab by slab and refuses more than an `Index` can name.
+/// Joins the points of all slabs; refuses more than `Index` can address.
 template <class S, int D, Executor E>
 [[nodiscard]] std::vector<Vector<S, D>> joined(std::vector<std::vector<Vector<S, D>>>& slabs, const E& execute) {
   std::vector<std::size_t> start(slabs.size() + 1, 0);
@@ -125,19 +124,19 @@ template <class S, int D, Executor E>
 
 }  // namespace detail
 
-/// The sites origin + spacing (i, j, k), i, j, k integers, of a simple cubic (2D: square) lattice
-/// that lie in `box` and inside `shape` (shape(x) < 0), as in section 3.1 of the paper. The last
-/// coordinate runs fastest, so that rows along z are contiguous. Every site of the box is sampled
-/// once; slabs of constant x run through `execute`, and the result does not depend on it.
+/// Fills a shape with particles on a simple cubic (2D: square) lattice, as in section 3.1 of the paper: returns the
+/// sites origin + spacing (i, j, k), i, j, k integers, that lie in `box` and inside `shape` (shape(x) < 0). The last
+/// coordinate runs fastest, so that rows along z are contiguous. Every site of the box is sampled once. Slabs of
+/// constant x run through `execute`; the result does not depend on it.
 ///
-/// Of sites on the surface, up to rounding, those on its lower sides are inside: where the distance is below 1e-9
-/// spacings, or a few units in the last place of the coordinates, it is taken a hair further on along x, y and z. A box
-/// of n spacings so holds n sites whatever the origin, in float too, and shapes that touch have no gap. A shape that
-/// knows inside and outside but no distance decides itself.
+/// Sites on the surface, up to rounding, count as inside on its lower sides: where the distance is below 1e-9 spacings,
+/// or a few units in the last place of the coordinates, the shape is evaluated slightly further along x, y and z. A box
+/// of n spacings therefore holds n sites per direction whatever the origin, also in float, and adjacent shapes have no
+/// gap. Shapes that return only inside or outside, without a distance, decide for themselves.
 ///
-/// `spacing` in metres; the box need not touch sites. Throws `InputError` for a spacing that is not
-/// positive, a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, and a
-/// shape that returns NaN, with the position.
+/// `spacing` in metres; faces of the box need not lie on sites. Throws `InputError` for a spacing that is not positive,
+/// a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, and a shape that returns NaN, with the
+/// position.
 template <class F, class S, int D, Executor E = Serial>
 requires Shape<F, S, D>
 [[nodiscard]] std::vector<Vector<S, D>> fill_lattice(

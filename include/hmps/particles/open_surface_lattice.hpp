@@ -22,7 +22,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What `fill_open_lattice` returns: the particles, and what had to be assumed for them.
+/// The result of `fill_open_lattice`: the particles, and the assumptions that were made.
 template <class S>
 struct OpenLattice {
   std::vector<Vector<S, 3>> points;  ///< m
@@ -30,14 +30,14 @@ struct OpenLattice {
   std::size_t crowded_edges = 0;     ///< edges of three, five, ... triangles: flaps and inner walls
   std::size_t holes = 0;             ///< connected groups of open edges
   double largest_hole = 0;           ///< diagonal in m of the box around the largest of them
-  /// Sites of the box, inside or not, with a winding number between 0.25 and 0.75 (up to its sign): near holes, where
-  /// the surface says little about what is inside.
+  /// Number of sites, inside or outside, with a winding number between 0.25 and 0.75 in magnitude. They lie near holes,
+  /// where the surface does not determine what is inside.
   std::size_t doubtful_sites = 0;
 };
 
 namespace detail {
 
-/// Writes to `result` how many holes there are, and how large they are.
+/// Writes number and size of the holes to `result`.
 template <class S>
 void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges, OpenLattice<S>& result) {
   VertexGroups groups(mesh.vertices.size());
@@ -61,19 +61,19 @@ void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges
 
 }  // namespace detail
 
-/// The sites of a lattice, as those of `fill_lattice`, inside of a surface that need not be closed: where it winds
-/// around a site by more than half (Jacobson et al. 2013). A hole is so closed by a smooth cover; the smaller it is
-/// beside the body, the less it matters. For a closed surface the points are those of `fill_lattice`. Look at what is
-/// returned beside the points: many doubtful sites mean that the shape is a guess there. Takes a few microseconds per
-/// site of the box around the surface; slabs run through `execute`, and the result does not depend on it.
+/// Fills a surface that need not be closed with lattice sites, as `fill_lattice` does: a site is inside if its winding
+/// number exceeds one half (Jacobson et al. 2013). This closes each hole with a smooth cover, which matters the less
+/// the smaller the hole is. For a closed surface the points are those of `fill_lattice`. Check the other results: many
+/// doubtful sites mean that the shape is a guess. Takes a few microseconds per site of the bounding box. Slabs run
+/// through `execute`; the result does not depend on it.
 ///
 ///     const auto mesh = read_surface<double>("organ.stl", {.scale = 1e-3, .closed = false});
 ///     const auto [points, open_edges, crowded, holes, largest_hole, doubtful] = fill_open_lattice(mesh, 1.2e-3);
 ///
-/// @param mesh      welded; triangles may be missing, but neighbours must be oriented alike
-/// @param accuracy  of winding numbers, see `TriangleTree`; with 2 they are right to about 0.01
-/// Throws `InputError` as `fill_lattice`, for triangles that are there twice, for neighbours of opposite orientation,
-/// and for a surface that surely encloses no site (winding number of 0.75 or more).
+/// @param mesh      welded; triangles may be missing, but neighbours must have consistent orientation
+/// @param accuracy  of winding numbers, see `TriangleTree`; 2 gives an error of about 0.01
+/// Throws `InputError` as `fill_lattice` does, for repeated triangles, for neighbours of opposite orientation, and for
+/// a surface that does not clearly enclose any site (winding number of 0.75 or more).
 template <class S, Executor E = Serial>
 [[nodiscard]] OpenLattice<S> fill_open_lattice(const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,
                                                const std::type_identity_t<Vector<S, 3>>& origin = Vector<S, 3>::Zero(),
@@ -91,7 +91,7 @@ template <class S, Executor E = Serial>
   const Box<S, 3> box = bounds(mesh);
   detail::require_plausible(mesh, box, static_cast<double>(spacing));
   const auto sites = detail::lattice_sites<S, 3>(box, spacing, origin);
-  // Of sites on the surface those on its lower sides are inside, as in `fill_lattice`; no two steps alike.
+  // Sites on the lower sides of the surface are inside, as in `fill_lattice`; the shift differs in each direction.
   const double hair = std::max(1e-9 * static_cast<double>(spacing), detail::coordinate_rounding<S, 3>(box, origin));
   const Vector<double, 3> aside = hair * Vector<double, 3>(8, 6.5, 5.25);
   std::vector<std::vector<Vector<S, 3>>> slabs(static_cast<std::size_t>(sites.count[0]));
@@ -115,7 +115,7 @@ template <class S, Executor E = Serial>
   });
   for (const std::size_t count : doubtful) result.doubtful_sites += count;
   result.points = detail::joined<S, 3>(slabs, execute);
-  // A flat sheet has a winding number of a half on itself, so that rounding may put its sites inside.
+  // A flat sheet has a winding number of one half on itself, so that rounding may classify its sites as inside.
   require(std::any_of(sure.begin(), sure.end(), [](std::size_t count) { return count > 0; }), "hmps: ", mesh.source,
           ", which is open at ", result.open_edges, " edges, surely encloses no lattice site of spacing ", spacing,
           " m (winding number 0.75 or more): it is too open, or the spacing is too large");

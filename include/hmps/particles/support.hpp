@@ -22,16 +22,15 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// When a particle counts as weakly supported. Its support is the smallest eigenvalue of A,
-/// \paper{12}, with the weights of \paper{8}, in units of the squared spacing: with the paper's
-/// radius 3.48 in a full cubic lattice, 1.74 at a flat surface, 0.99 at the corner of a cube. A
-/// small one makes A^-1 large, and with it the stiffness: the particle has a stable step of its own
-/// and can explode at rest.
+/// Settings of `find_weak` and `remove_weak`. The support of a particle is the smallest eigenvalue of A, \paper{12},
+/// with the weights of \paper{8}, divided by the squared spacing: with the paper's radius 3.48 in a full cubic lattice,
+/// 1.74 at a flat surface, 0.99 at the corner of a cube. Weak support makes A^-1 and thus the stiffness large: the
+/// particle has a small stable step of its own and can explode at rest.
 struct SupportSettings {
   double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
   double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
   double threshold = 0.75;                   ///< Weak below this; the default suits 3D and the paper's radius.
-  double smallest_piece = 0.01;              ///< Loose pieces with a smaller share of all particles are dropped.
+  double smallest_piece = 0.01;              ///< Detached pieces with a smaller fraction of all particles are removed.
 };
 
 /// A weakly supported particle.
@@ -40,7 +39,7 @@ struct WeakParticle {
   double support;  ///< smallest eigenvalue of A over the squared spacing
 };
 
-/// Keeps nothing back: the predicate of `remove_weak` that protects no particle.
+/// Protects no particle: the default predicate of `remove_weak`.
 struct KeepNone {
   constexpr bool operator()(std::size_t) const { return false; }
 };
@@ -56,7 +55,7 @@ inline void validate(const SupportSettings& settings) {
           " of all particles; give a share from 0 to 1");
 }
 
-/// The neighbourhoods of a cloud that is about to lose particles.
+/// The neighbourhoods of a cloud from which particles are removed.
 template <class T, int D, class Bonded>
 class Supports {
  public:
@@ -79,7 +78,7 @@ class Supports {
       if (bonded_(i, static_cast<std::size_t>(j))) visit(static_cast<std::size_t>(j));
   }
 
-  /// The support of `i` by those of its neighbours for which `present(j)` holds.
+  /// The support of `i` from those neighbours for which `present(j)` holds.
   template <class Present>
   [[nodiscard]] double operator()(std::size_t i, const Present& present) const {
     ShapeTensor<D> shape;
@@ -102,9 +101,9 @@ class Supports {
 
 }  // namespace detail
 
-/// The weakly supported particles of the reference positions `points` (m), in order, with bonds
-/// between all pairs within the effective radius for which `bonded(i, j)` holds (symmetric). Throws
-/// `InputError` for settings out of range, positions that are not finite, coincident particles.
+/// Finds the weakly supported particles of the reference positions `points` (m), in order. Two particles are bonded if
+/// they lie within the effective radius and `bonded(i, j)` holds (symmetric). Throws `InputError` for settings out of
+/// range, positions that are not finite, and coincident particles.
 template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 [[nodiscard]] std::vector<WeakParticle> find_weak(const VectorView<T, D>& points, const SupportSettings& settings,
                                                   const Bonded& bonded = {}, const E& execute = {}) {
@@ -117,15 +116,15 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   return weak;
 }
 
-/// The indices, in order, of the particles of `points` (m) that are left when weakly supported ones
-/// are removed until there is none, and then the connected pieces with a smaller share of all
-/// particles than `smallest_piece`. A removal only weakens what stays, so the set that is left is
-/// the one largest set in which all are supported, whatever the order of removal.
+/// Removes weakly supported particles of `points` (m) until none is left, then connected pieces with a smaller fraction
+/// of all particles than `smallest_piece`. Returns the indices of the remaining particles, in order. Since each removal
+/// only weakens the rest, the result is the largest set in which every particle is supported, whatever the order of
+/// removal.
 ///
-/// What is removed can be much of an organ one or two particles thick. Particles for which
-/// `keep(i)` holds are never removed, nor the piece that they are in; those of them that are weak
-/// are in `find_weak` of what is left. `thicken` fills up instead. Throws as `find_weak`, and
-/// `InputError` where nothing would be left of a cloud, with the spacing that it seems to have.
+/// Of organs one or two particles thick, much may be removed. Particles for which `keep(i)` holds are never removed,
+/// nor is the piece that contains them; apply `find_weak` to the result to see which of them are weak. `thicken` adds
+/// particles instead. Throws as `find_weak` does, and `InputError` if no particle would remain, with the apparent
+/// spacing of the cloud.
 template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
 [[nodiscard]] std::vector<Index> remove_weak(const VectorView<T, D>& points, const SupportSettings& settings,
                                              const Keep& keep = {}, const Bonded& bonded = {}) {

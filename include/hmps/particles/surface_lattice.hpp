@@ -21,13 +21,13 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// A point of the plane in whole steps of 2^-29 of the surface's extent, so that orientation is
-/// exact in 64 bits.
+/// A point of the plane in integer multiples of 2^-29 of the surface's extent, which makes orientation tests exact in
+/// 64 bits.
 using PlanePoint = std::array<std::int64_t, 2>;
 
-/// Which side of the line a, b the point p lies on: +1 left, -1 right; on the line, the side of p
-/// after an infinitely small step along x and a still smaller one along y. 0 only if a = b. One rule
-/// for all triangles: a column hits each closed surface the same number of times up and down.
+/// The side of the line a, b on which the point p lies: +1 left, -1 right. A point on the line takes the side of p
+/// shifted by an infinitesimal step along x and a still smaller one along y. 0 only if a = b. With one rule for all
+/// triangles, a column crosses each closed surface equally often upwards and downwards.
 [[nodiscard]] inline int side(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
   const std::int64_t dx = b[0] - a[0];
   const std::int64_t dy = b[1] - a[1];
@@ -36,7 +36,7 @@ using PlanePoint = std::array<std::int64_t, 2>;
   return turn != 0 ? sign(turn) : dy != 0 ? -sign(dy) : sign(dx);
 }
 
-/// Where a column along z meets a triangle.
+/// A crossing of a column along z with a triangle.
 struct Crossing {
   std::size_t column;
   double z;   ///< m
@@ -52,8 +52,8 @@ struct PlaneGrid {
   }
 };
 
-/// Throws `InputError` where the extent of a surface and the spacing are so far apart that one of them is in another
-/// unit: more sites than can be sampled, or a spacing larger than the whole surface.
+/// Throws `InputError` if the extent of a surface and the spacing seem to be in different units: more sites than can be
+/// sampled, or a spacing larger than the surface.
 template <class S>
 void require_plausible(const SurfaceMesh<S>& mesh, const Box<S, 3>& box, double spacing) {
   if (!is_finite(spacing) || spacing <= 0) return;  // which `lattice_sites` says
@@ -117,15 +117,14 @@ template <class S>
 
 }  // namespace detail
 
-/// The sites origin + spacing (i, j, k) of a simple cubic lattice inside the closed surface `mesh`,
-/// in the order of `fill_lattice` for implicit shapes. Columns along z are cut with the triangles,
-/// so that the time is linear in triangles, crossings and sites. Inside is where the surface winds
-/// around a site at all: parts that overlap are united, a part that is turned inside out within
-/// another is a hole. Of sites on the surface those on its lower sides are inside, so that a box of
-/// n spacings holds n sites whatever the origin.
+/// Fills the closed surface `mesh` with particles on a simple cubic lattice, in the order of `fill_lattice` for
+/// implicit shapes. Intersects columns along z with the triangles, in a time linear in triangles, crossings and sites.
+/// A site is inside if its winding number is not zero: overlapping parts are united, and an inverted part within
+/// another is a hole. Sites on the lower sides of the surface are inside, so that a box of n spacings holds n sites per
+/// direction whatever the origin.
 ///
-/// Throws `InputError` as `require_closed`, for a spacing that is not positive, for too many sites,
-/// and for a spacing larger than the surface.
+/// Throws `InputError` as `require_closed` does, for a spacing that is not positive, for too many sites, and for a
+/// spacing larger than the surface.
 template <class S, Executor E = Serial>
 [[nodiscard]] std::vector<Vector<S, 3>> fill_lattice(
     const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,

@@ -44,8 +44,7 @@ template <int D>
   return directions;
 }
 
-/// Whether there is one of `directions` to which all of `neighbours`, unit vectors, make an angle whose cosine is at
-/// most `limit`.
+/// Whether one of `directions` makes an angle with all of `neighbours` (unit vectors) whose cosine is at most `limit`.
 template <int D>
 [[nodiscard]] bool sees_out(const std::vector<Vector<double, D>>& neighbours,
                             const std::vector<Vector<double, D>>& directions, double limit) {
@@ -57,27 +56,27 @@ template <int D>
 
 }  // namespace detail
 
-/// The outermost layer of a body, and its two outermost layers, from the places of its particles alone: on a lattice,
-/// in any cloud that is about evenly spaced, in walls of any thickness.
+/// Finds the outermost layer of a body and its two outermost layers from the particle positions alone: on a lattice or
+/// in any evenly spaced cloud, in walls of any thickness.
 ///
 ///     const auto layers = surface_layers(vectors(points), l0);
 ///     contact.add_organ({.name = "organ", .slaves = layers.outermost, .masters = layers.two_outermost});
 ///
-/// A particle is of the outermost layer if it sees out: if a cone of half angle 56 degrees with its tip there holds no
-/// other particle within 1.8 spacings. At a flat surface such a cone opens to 90 degrees; at the foot of a step of a
-/// surface that is cut out of a lattice to 67 (to 60 where two steps meet in a corner); a particle below the layer sees
-/// out by 55 degrees at most in a cubic lattice, under a surface across the diagonal of its cells, and inside by 28.
-/// In a wall two particles thick every particle so is outermost, in a sheet of one too. A cone of less than 60 degrees
-/// (2D: 57) may be overlooked, since a finite number of directions is tried. The second layer is what lies within 1.5
-/// spacings of the outermost one: one layer along a lattice, whose layers lie a spacing apart, two or more across its
-/// diagonals, where they lie closer: about as far down, two spacings below the surface.
+/// A particle belongs to the outermost layer if a cone with its tip at the particle and a half angle of 56 degrees
+/// contains no other particle within 1.8 spacings. At a flat surface such a cone opens to 90 degrees; at the foot of a
+/// step of a surface that is cut out of a lattice to 67 (60 where two steps meet in a corner). Below the layer the free
+/// cone is at most 55 degrees in a cubic lattice (under a surface across the diagonal of its cells), and inside 28. In
+/// a wall two particles thick every particle is therefore outermost, as in a sheet of one. A cone of less than 60
+/// degrees (2D: 57) may be missed, because a finite number of directions is tested. The second layer consists of the
+/// particles within 1.5 spacings of the outermost one: one layer along a lattice, two or more across its diagonals,
+/// where layers lie closer; about as far down in both cases, two spacings below the surface.
 ///
-/// Cavities that hold no particle have a surface too. So do gaps in a cloud, where neighbours are further than about
-/// 1.5 spacings apart.
+/// Empty cavities have a surface too, and so do gaps in a cloud where neighbours are further apart than about 1.5
+/// spacings.
 ///
 /// @param points   reference positions in m
 /// @param spacing  l0 in m
-/// @param bonded   `bonded(i, j)`: whether two particles are of one body; symmetric
+/// @param bonded   `bonded(i, j)`: whether two particles belong to one body; symmetric
 /// Throws `InputError` for a spacing that is not positive, positions that are not finite, and coincident particles.
 template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 [[nodiscard]] SurfaceLayers surface_layers(const VectorView<T, D>& points, double spacing, const Bonded& bonded = {},
@@ -86,7 +85,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   using S = typename VectorView<T, D>::Scalar;
   require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of surface layers is ", spacing,
           " m; give the particles' positive distance in the reference configuration");
-  // Directions lie within 3.5 degrees (2D: 1) of any other.
+  // Every direction lies within 3.5 degrees (2D: 1) of one of these.
   const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
   const double limit = std::cos(56 * std::numbers::pi / 180);
   // Between the neighbours across the diagonal of a cell, at 1.73, and the next ones, at 2.
@@ -100,7 +99,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   execute(points.size(), [&](std::size_t i) {
     std::vector<Vector<double, D>> to;
     for_each(i, [&](Index, const Vector<double, D>& r) { to.push_back(r); });
-    // The nearest ones block most directions.
+    // The nearest neighbours block most directions.
     std::stable_sort(to.begin(), to.end(),
                      [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
     for (auto& r : to) r.normalize();

@@ -19,7 +19,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Allows every site: the predicate of `thicken` without forbidden regions.
+/// Allows every site: the default predicate of `thicken`.
 struct AllowEverywhere {
   template <class V>
   constexpr bool operator()(const V&) const {
@@ -29,7 +29,7 @@ struct AllowEverywhere {
 
 namespace detail {
 
-/// Occupied sites of a lattice that may grow, by whole steps from the first point.
+/// The occupied sites of a growing lattice, in integer steps from the first point.
 template <int D>
 class SiteMap {
  public:
@@ -111,16 +111,15 @@ class SiteMap {
 
 }  // namespace detail
 
-/// Lattice sites to add to `points` (m, on one lattice of `settings.spacing`) so that weakly
-/// supported particles get support: the other way than `remove_weak` to deal with what
-/// voxelisation leaves of thin organs, which it makes thicker by up to a spacing where they are
-/// weak. In each of up to `passes` passes every weak particle, in order, gets the free site beside
-/// it along an axis that helps its weakest direction most; of equal ones that with more neighbours
-/// of its own.
+/// Finds lattice sites to add to `points` (m, on one lattice of `settings.spacing`) to support weakly supported
+/// particles. It is the alternative to `remove_weak` for thin organs cut out of a lattice, and thickens them by up to a
+/// spacing where they are weak. In each of up to `passes` passes, every weak particle, in order, gets the free
+/// neighbouring site along an axis that strengthens its weakest direction most; of equal sites, the one with more
+/// neighbours.
 ///
-/// Sites for which `allowed(x)` does not hold stay free: the gap to another organ, say. Returns the
-/// new positions; what is still weak afterwards, `find_weak` tells. Throws `InputError` for settings
-/// out of range and points that are not on one lattice.
+/// Sites for which `allowed(x)` does not hold stay free, such as a gap to another organ. Returns the new positions; use
+/// `find_weak` to see what is still weak. Throws `InputError` for settings out of range and points that are not on one
+/// lattice.
 template <class T, int D, class Allowed = AllowEverywhere>
 [[nodiscard]] std::vector<Vector<typename VectorView<T, D>::Scalar, D>> thicken(const VectorView<T, D>& points,
                                                                                 const SupportSettings& settings,
@@ -138,7 +137,7 @@ template <class T, int D, class Allowed = AllowEverywhere>
   for (std::size_t i = 0; i < points.size(); ++i) map.add(i, points[i].template cast<double>());
 
   const std::size_t given = map.sites().size();
-  // Support only grows, so later passes look at what was weak and at what was added.
+  // Support only grows, so later passes need to look only at particles that were weak and at those that were added.
   std::vector<std::size_t> suspects(given);
   for (std::size_t i = 0; i < given; ++i) suspects[i] = i;
   for (int pass = 0; pass < passes && !suspects.empty(); ++pass) {
@@ -161,7 +160,7 @@ template <class T, int D, class Allowed = AllowEverywhere>
           const auto candidate = Map::moved(site, offset);
           if (map.has(candidate) || !allowed(Vector<S, D>(map.position(candidate).template cast<S>()))) continue;
           const double along = weakest[static_cast<Eigen::Index>(c)];
-          // The number of neighbours only decides between sites that help alike.
+          // The number of neighbours decides only between sites with equal effect.
           const double gain = std::round(1e3 * along * along) + 1e-3 * map.shape(candidate).neighbours;
           if (gain > best) best = gain, chosen = candidate;
         }

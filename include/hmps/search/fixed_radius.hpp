@@ -32,7 +32,7 @@ struct NeighbourList {
 
 namespace detail {
 
-/// A view of positions as nanoflann's dataset concept wants it.
+/// Adapts a view of positions to nanoflann's dataset concept.
 template <class T, int D>
 struct PointSet {
   using Scalar = typename VectorView<T, D>::Scalar;
@@ -48,8 +48,8 @@ struct PointSet {
   }
 };
 
-/// Collects the indices within a closed ball. nanoflann's own result sets use an open ball and
-/// keep squared distances that nobody here needs.
+/// Collects the indices within a closed ball. nanoflann's own result sets use an open ball and store distances that are
+/// not needed here.
 template <class S>
 class WithinRadius {
  public:
@@ -61,22 +61,22 @@ class WithinRadius {
     if (squared_distance <= squared_radius_) found_.push_back(index);
     return true;
   }
-  /// Just beyond the ball: nanoflann drops what lies at this distance, and whole branches by bounds
-  /// of the distance that carry the rounding of a sum.
+  /// Slightly more than the squared radius: nanoflann skips points at exactly this distance, and whole branches by
+  /// bounds that carry rounding errors.
   [[nodiscard]] S worstDist() const {
     return squared_radius_ * (1 + 16 * std::numeric_limits<S>::epsilon()) + std::numeric_limits<S>::min();
   }
   [[nodiscard]] bool full() const { return true; }
   [[nodiscard]] bool empty() const { return found_.empty(); }
   [[nodiscard]] std::size_t size() const { return found_.size(); }
-  void sort() {}  ///< `FixedRadiusSearch` sorts by index.
+  void sort() {}  ///< `FixedRadiusSearch` sorts by index instead
 
  private:
   S squared_radius_;
   std::vector<Index>& found_;
 };
 
-/// Counts what lies within a closed ball, keeping nothing.
+/// Counts the points within a closed ball without storing them.
 template <class S>
 class CountWithin {
  public:
@@ -102,8 +102,8 @@ class CountWithin {
 
 }  // namespace detail
 
-/// Fixed-radius search through a k-d tree (nanoflann) over the user's own positions, which must
-/// outlive it and not move while it is used.
+/// Fixed-radius search in a k-d tree (nanoflann) over the user's positions. The positions must outlive the search and
+/// must not change while it is in use.
 template <class T, int D>
 class FixedRadiusSearch {
   using Points = detail::PointSet<T, D>;
@@ -116,8 +116,7 @@ class FixedRadiusSearch {
   FixedRadiusSearch(const FixedRadiusSearch&) = delete;
   FixedRadiusSearch& operator=(const FixedRadiusSearch&) = delete;
 
-  /// The particles whose distance to `centre` is at most `radius` (m; the true radius, not its
-  /// square), sorted by index, into `found`. May be called by several threads at once.
+  /// Writes to `found` the particles within `radius` (m, closed ball) of `centre`, sorted by index. Thread-safe.
   void operator()(const Vector<Scalar, D>& centre, Scalar radius, std::vector<Index>& found) const {
     found.clear();
     if (points_.points.size() == 0) return;
@@ -126,19 +125,19 @@ class FixedRadiusSearch {
     std::sort(found.begin(), found.end());
   }
 
-  /// How many particles lie within `radius` (m) of `centre`; takes no memory, however many they are.
+  /// The number of particles within `radius` (m) of `centre`. Allocates no memory.
   [[nodiscard]] std::size_t count(const Vector<Scalar, D>& centre, Scalar radius) const {
     detail::CountWithin<Scalar> within(radius * radius);
     if (points_.points.size() > 0) tree_.findNeighbors(within, centre.data(), {});
     return within.size();
   }
 
-  /// Distance (m) from `particle` to the nearest other one; infinite if there is none.
+  /// Distance (m) from `particle` to its nearest neighbour; infinite if there is none.
   [[nodiscard]] Scalar nearest(std::size_t particle) const {
     if (points_.points.size() < 2) return std::numeric_limits<Scalar>::infinity();
     Index index[2];
     Scalar squared[2];
-    nanoflann::KNNResultSet<Scalar, Index> two(2);  // of which one is the particle itself
+    nanoflann::KNNResultSet<Scalar, Index> two(2);  // one of them is the particle itself
     two.init(index, squared);
     tree_.findNeighbors(two, points_.points[particle].eval().data(), {});
     return std::sqrt(squared[1]);
@@ -155,9 +154,9 @@ class FixedRadiusSearch {
   Tree tree_;
 };
 
-/// All neighbours within `radius` (m, closed ball) of every particle that `search` is over. The lists
-/// are symmetric: distances are measured once per pair, from the lower index. Throws `InputError` for
-/// a radius that is not positive and for coincident particles.
+/// Finds all neighbours within `radius` (m, closed ball) of every particle of `search`. The lists are symmetric: each
+/// distance is measured once, from the lower index. Throws `InputError` if the radius is not positive and if particles
+/// coincide.
 template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const FixedRadiusSearch<T, D>& search,
                                             typename VectorView<T, D>::Scalar radius, const E& execute = {}) {
@@ -182,7 +181,7 @@ template <class T, int D, Executor E = Serial>
   }
   for (std::size_t i = 0; i < n; ++i) list.offset[i + 1] += list.offset[i];
   list.neighbour.resize(list.offset[n]);
-  // Visiting the lower index in order leaves every list sorted: first those below, then those above.
+  // Visiting the lower index in ascending order keeps every list sorted: lower indices come first.
   std::vector<std::size_t> next(list.offset.begin(), list.offset.end() - 1);
   for (std::size_t i = 0; i < n; ++i)
     for (Index j : above[i]) list.neighbour[next[j]++] = static_cast<Index>(i);
@@ -191,7 +190,7 @@ template <class T, int D, Executor E = Serial>
   return list;
 }
 
-/// The same of every particle of `points`. Throws `InputError` also for a position that is not finite.
+/// The same for every particle of `points`. Also throws `InputError` if a position is not finite.
 template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const VectorView<T, D>& points, typename VectorView<T, D>::Scalar radius,
                                             const E& execute = {}) {

@@ -15,19 +15,17 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A uniform cell list of points: all points within a radius of a place, for searches that are
-/// repeated while the points move. Building is linear in the number of points. On particles of about
-/// one spacing it is 5 to 20 times as fast as a k-d tree. Keeps a sorted copy of the points and its
-/// memory from build to build.
+/// A uniform cell list: finds all points within a radius of a place. Meant for searches that are repeated while the
+/// points move. Building takes linear time. For particles about one spacing apart it is 5 to 20 times as fast as a k-d
+/// tree. Stores a sorted copy of the points and reuses its memory from build to build.
 template <class S, int D>
 class Grid {
  public:
   using Point = Vector<S, D>;
 
-  /// Sorts the points `position(k)`, `k` in `[0, n)`, into cells of edge `cell` in m (about the radius
-  /// of the searches to come; larger where the points would need more than about 4 n cells).
-  /// Throws `InputError` on a point that is not finite, on points whose distance is not, and on a cell that is not
-  /// positive.
+  /// Sorts the points `position(k)`, `k` in `[0, n)`, into cells with the edge `cell` (m), which should be about the
+  /// radius of later searches. The edge is enlarged if the points would need more than about 4 n cells. Throws
+  /// `InputError` if a point or the extent of all points is not finite, and if the edge is not positive.
   template <class Position>
   void build(std::size_t n, S cell, Position&& position) {
     require(detail::is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell,
@@ -65,7 +63,7 @@ class Grid {
     inverse_ = S(1) / cell;
     std::size_t total = 1;
     for (int c = 0; c < D; ++c) {
-      // One spare cell: extent * inverse_ may round up past floor(extent / cell).
+      // One spare cell, because extent * inverse_ may round up beyond floor(extent / cell).
       cells_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(extent[c] * inverse_) + 1;
       total *= cells_[static_cast<std::size_t>(c)];
     }
@@ -86,8 +84,8 @@ class Grid {
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
-  /// Calls `visit(k, squared distance)` for every point with |x_k - centre| <= `radius`, cell after
-  /// cell: in an order that depends on the points alone.
+  /// Calls `visit(k, squared distance)` for every point with |x_k - centre| <= `radius`, cell by cell. The order
+  /// depends only on the points.
   template <class Visit>
   void visit(const Point& centre, S radius, Visit&& visit) const {
     std::array<std::size_t, 3> from{}, to{};
@@ -101,7 +99,7 @@ class Grid {
     const S squared = radius * radius;
     for (std::size_t z = from[2]; z <= to[2]; ++z)
       for (std::size_t y = from[1]; y <= to[1]; ++y) {
-        // Cells along x lie one behind the other: one run of points.
+        // Cells along x are contiguous: their points form one run.
         const std::size_t row = (D == 3 ? z * cells_[1] * cells_[0] : 0) + y * cells_[0];
         const std::size_t end = starts_[row + to[0] + 1];
         for (std::size_t q = starts_[row + from[0]]; q < end; ++q) {
@@ -111,7 +109,7 @@ class Grid {
       }
   }
 
-  /// The points within `radius` of `centre` in `found`, sorted by index.
+  /// Writes the points within `radius` of `centre` to `found`, sorted by index.
   void within(const Point& centre, S radius, std::vector<Index>& found) const {
     found.clear();
     visit(centre, radius, [&](Index k, S) { found.push_back(k); });

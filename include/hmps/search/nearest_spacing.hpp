@@ -15,9 +15,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The spacing in m that a cloud of particles seems to have: the median distance of 64 of them, spread over `points`
-/// (m), to the nearest other particle that does not lie at the same place. 0 where there is none. For messages and
-/// checks of a spacing that was given; takes 64 distances per particle.
+/// Estimates the spacing (m) of a cloud of particles: the median distance of 64 particles, spread over `points` (m), to
+/// their nearest neighbours, ignoring coincident particles. Returns 0 if there is no such distance. For error messages
+/// and for checks of a given spacing.
 template <class T, int D>
 [[nodiscard]] double nearest_spacing(const VectorView<T, D>& points) {
   const std::size_t n = points.size(), samples = std::min<std::size_t>(n, 64);
@@ -39,7 +39,7 @@ template <class T, int D>
 
 namespace detail {
 
-/// What to say beside an error that a wrong `spacing` (m) may have caused: empty if it is that of `points`.
+/// A hint to append to an error that a wrong `spacing` (m) may have caused; empty if `spacing` agrees with `points`.
 template <class T, int D>
 [[nodiscard]] std::string spacing_hint(const VectorView<T, D>& points, double spacing) {
   const double found = nearest_spacing(points);

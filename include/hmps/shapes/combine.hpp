@@ -16,8 +16,8 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// A shape made of the function object `rule` of a position. Wrapping the lambda keeps the names of
-/// the combinators short in error messages and lets any position type through unconverted.
+/// A shape that evaluates the function object `rule`. Wrapping the lambda keeps the names of the combinators short in
+/// error messages and passes any position type through unconverted.
 template <class Rule>
 struct Combined {
   Rule rule;
@@ -29,8 +29,8 @@ struct Combined {
 template <class Rule>
 Combined(Rule) -> Combined<Rule>;
 
-/// Polynomial smooth minimum: `min(a, b)` where they differ by more than `width`, at most
-/// `width / 4` below it where they are equal; once continuously differentiable.
+/// Polynomial smooth minimum: `min(a, b)` where they differ by more than `width`, at most `width / 4` below it where
+/// they are equal; continuously differentiable.
 template <class S>
 [[nodiscard]] S smooth_min(S a, S b, S width) {
   if (!(width > S(0))) return std::min(a, b);
@@ -40,7 +40,7 @@ template <class S>
 
 }  // namespace detail
 
-/// Points in any of the shapes. The distance is exact outside if those of the parts are.
+/// Union of shapes. Exact outside if the shapes are exact.
 template <class A, class B, class... More>
 [[nodiscard]] auto unite(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
@@ -49,7 +49,7 @@ template <class A, class B, class... More>
     return unite(unite(std::move(a), std::move(b)), std::move(more)...);
 }
 
-/// Points in any of a list of shapes of one type, e.g. of `Ball`s. Needs at least one shape.
+/// Union of a list of shapes of one type, such as `Ball`. The list must not be empty.
 template <class A>
 [[nodiscard]] auto unite_all(std::vector<A> shapes) {
   return detail::Combined{[shapes = std::move(shapes)](const auto& x) {
@@ -59,7 +59,7 @@ template <class A>
   }};
 }
 
-/// Points in all of the shapes. A lower bound of the distance if those of the parts are exact.
+/// Intersection of shapes. A lower bound of the distance if the shapes are exact.
 template <class A, class B, class... More>
 [[nodiscard]] auto intersect(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
@@ -68,14 +68,14 @@ template <class A, class B, class... More>
     return intersect(intersect(std::move(a), std::move(b)), std::move(more)...);
 }
 
-/// Points not in the shape. Exact if the shape is.
+/// Complement of a shape. Exact if the shape is.
 template <class A>
 [[nodiscard]] auto complement(A a) {
   return detail::Combined{[a = std::move(a)](const auto& x) { return -a(x); }};
 }
 
-/// Points of `a` that are in none of the other shapes. A lower bound of the distance if those of
-/// the parts are exact.
+/// Difference: the points of `a` that are in none of the other shapes. A lower bound of the distance if the shapes are
+/// exact.
 template <class A, class B, class... More>
 [[nodiscard]] auto subtract(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
@@ -92,8 +92,8 @@ template <class A, class S>
   }};
 }
 
-/// Points whose signed distance to the shape lies between `from` and `to` metres: `layer(a, 0, t)`
-/// is a wall of thickness t outside of a, `layer(a, -t, 0)` inside of it.
+/// The points whose signed distance to the shape lies between `from` and `to` metres: `layer(a, 0, t)` is a wall of
+/// thickness t outside a, `layer(a, -t, 0)` one inside.
 template <class A, class S>
 [[nodiscard]] auto layer(A a, S from, S to) {
   return detail::Combined{[a = std::move(a), from, to](const auto& x) {
@@ -103,14 +103,14 @@ template <class A, class S>
   }};
 }
 
-/// Sheet of the given thickness with the surface of `a` in its middle.
+/// A sheet of the given thickness with the surface of `a` as its middle surface.
 template <class A, class S>
 [[nodiscard]] auto shell(A a, S thickness) {
   return layer(std::move(a), -thickness / 2, thickness / 2);
 }
 
-/// Union with a fillet: where the two distances differ by less than `radius`, material is added, at
-/// most radius / 4 where they are equal. Exact nowhere near the fillet, but smooth.
+/// Union with a fillet: adds material where the two distances differ by less than `radius`, at most radius / 4. Smooth,
+/// but not an exact distance near the fillet.
 template <class A, class B, class S>
 [[nodiscard]] auto smooth_unite(A a, B b, S radius) {
   return detail::Combined{[a = std::move(a), b = std::move(b), radius](const auto& x) {
@@ -152,8 +152,7 @@ template <class A, class S, int D>
   return rotated(std::move(a), rotation, Vector<S, D>(Vector<S, D>::Zero()));
 }
 
-/// The half of the shape where coordinate `axis` exceeds `at`, and its mirror image: left and right
-/// from one description.
+/// The half of a shape where coordinate `axis` exceeds `at`, and its mirror image: describes left and right at once.
 template <class A, class S = double>
 [[nodiscard]] auto mirrored(A a, int axis, S at = S(0)) {
   return detail::Combined{[a = std::move(a), axis, at](const auto& x) {
@@ -164,8 +163,8 @@ template <class A, class S = double>
   }};
 }
 
-/// The shape seen through `map`, a callable from positions to positions: `shape(map(x))`. The sign
-/// is exact, the distance only as far as the map keeps lengths.
+/// The shape composed with `map`, a callable from positions to positions: `shape(map(x))`. The sign is exact; the
+/// distance is correct only if the map preserves lengths.
 template <class A, class Map>
 [[nodiscard]] auto warped(A a, Map map) {
   return detail::Combined{[a = std::move(a), map = std::move(map)](const auto& x) { return a(map(x)); }};

@@ -10,23 +10,21 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A shape in `D` dimensions. Valid expression: `shape(x)` with `x` a `Vector<S, D>` in metres; the
-/// result is negative inside, positive outside, and about the signed distance to the surface in
-/// metres. Satisfied by the primitives and combinators of this folder and by any lambda. Shapes are
-/// plain values that capture by value, so a composed shape inlines to straight code.
+/// A shape in `D` dimensions: `shape(x)` with `x` a `Vector<S, D>` in metres is negative inside, positive outside, and
+/// approximates the signed distance to the surface in metres. Models: the primitives and combinators of this folder,
+/// any lambda. Shapes are values that capture by value, so that a composed shape compiles to straight code.
 ///
-/// *Exact* shapes return the Euclidean distance everywhere; *first-order* ones return f / |grad f|
-/// of an implicit function f: the zero surface is exact, the distance near it is right to first
-/// order, far away it is only a sign. `offset`, `layer` and `shell` of a first-order shape are
-/// therefore about right while the offset is small beside the radius of curvature.
+/// *Exact* shapes return the Euclidean distance everywhere. *First-order* shapes return f / |grad f| of an implicit
+/// function f: the zero surface is exact, the distance near it is correct to first order, and far away only the sign
+/// is. `offset`, `layer` and `shell` of a first-order shape are therefore accurate only for offsets small compared with
+/// the radius of curvature.
 template <class F, class S, int D>
 concept Shape = requires(const F& shape, const Vector<S, D>& x) {
   { shape(x) } -> std::convertible_to<S>;
 };
 
 namespace detail {
-/// Parameter in [0, 1] of the point of the segment `from`, `to` that is nearest to `x`; 0 when the
-/// segment is a point.
+/// Parameter in [0, 1] of the point nearest to `x` on the segment from `from` to `to`; 0 if the segment is a point.
 template <class S, int D>
 [[nodiscard]] S nearest_on_segment(const Vector<S, D>& from, const Vector<S, D>& to, const Vector<S, D>& x) {
   const Vector<S, D> along = to - from;
@@ -67,8 +65,7 @@ struct Box {
   }
 };
 
-/// Everything behind the plane (line in 2D) through `point` with `outward` normal of any length.
-/// Exact.
+/// The half space behind the plane (2D: line) through `point` with the `outward` normal, of any length. Exact.
 template <class S, int D>
 struct HalfSpace {
   Vector<S, D> point = Vector<S, D>::Zero();  ///< m
@@ -76,7 +73,7 @@ struct HalfSpace {
   [[nodiscard]] S operator()(const Vector<S, D>& x) const { return outward.dot(x - point) / outward.norm(); }
 };
 
-/// All points nearer than `radius` to the segment. Exact.
+/// All points within `radius` of a segment. Exact.
 template <class S, int D>
 struct Capsule {
   Vector<S, D> from;  ///< m
@@ -88,8 +85,7 @@ struct Capsule {
   }
 };
 
-/// Convex hull of two balls: a cone with round ends. Exact. When one ball holds the other, the
-/// larger one.
+/// Convex hull of two balls: a cone with round ends. Exact. If one ball contains the other, the larger one.
 template <class S, int D>
 struct RoundCone {
   Vector<S, D> from;  ///< m
@@ -102,8 +98,8 @@ struct RoundCone {
     const S fall = radius_from - radius_to;
     if (length <= std::abs(fall))
       return radius_from > radius_to ? (x - from).norm() - radius_from : (x - to).norm() - radius_to;
-    // In the half plane of the axis: (axial, radial) from the first centre; `sine` is that of half
-    // the opening angle, and the foot of the perpendicular on the mantle decides the piece.
+    // Works in the half plane of the axis, in coordinates (axial, radial) from the first centre. `sine` is that of half
+    // the opening angle; the foot of the perpendicular on the mantle selects the piece.
     const Vector<S, D> arm = x - from;
     const S axial = arm.dot(along) / length;
     const S radial = std::sqrt(std::max(arm.squaredNorm() - axial * axial, S(0)));
@@ -116,7 +112,7 @@ struct RoundCone {
   }
 };
 
-/// Cylinder with flat ends around the segment. 3D: a cylinder; 2D: a rectangle at any angle. Exact.
+/// Cylinder with flat ends around a segment; in 2D a rectangle at any angle. Exact.
 template <class S, int D>
 struct Cylinder {
   Vector<S, D> from;  ///< m

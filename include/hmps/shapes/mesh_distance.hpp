@@ -13,17 +13,17 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A surface of triangles as a shape: the signed distance to it, so that `fill_lattice(shape, box, ...)`, `RaisedSkin`,
-/// the combinators and all else that takes a shape takes a mesh.
+/// The signed distance to a triangle surface, as a shape: `fill_lattice(shape, box, ...)`, `RaisedSkin`, the
+/// combinators and everything else that takes a shape thus takes a mesh.
 ///
 ///     const MeshDistance<double> organ(read_surface<double>("organ.stl", 1e-3));
 ///     const auto points = fill_lattice(organ, organ.box(), l0);
 ///
-/// The distance is that to the nearest triangle, exact. Inside is where the surface winds around the point by more than
-/// half, whichever way its triangles are oriented. Exact for a closed surface that does not cut itself; where parts
-/// overlap, the distance within is that to the nearest triangle of any part. Of an open surface the value jumps from
-/// inside to outside within its holes, where it tells no surface: it is a distance away from them only. Copies share
-/// the triangles.
+/// The magnitude is the exact distance to the nearest triangle. A point is inside if its winding number exceeds one
+/// half in magnitude, whichever way the triangles are oriented. The distance is exact for a closed surface that does
+/// not intersect itself; where parts overlap, the distance inside is that to the nearest triangle of any part. In the
+/// holes of an open surface the value jumps from inside to outside, so that it is a distance only away from them.
+/// Copies share the triangles.
 template <class S>
 class MeshDistance {
  public:

@@ -33,7 +33,7 @@ class ObjParser {
       std::string_view line = take_line(text);
       line = line.substr(0, line.find('#'));
       if (trimmed(line).ends_with('\\')) {
-        // Goes on in the next line.
+        // Continued on the next line.
         joined.clear();
         while (trimmed(line).ends_with('\\')) {
           line = trimmed(line);
@@ -57,7 +57,7 @@ class ObjParser {
   }
 
  private:
-  /// A corner that names a vertex which the file has not shown yet.
+  /// A corner that refers to a vertex that has not been read yet.
   struct Ahead {
     std::int64_t number;
     std::size_t line;
@@ -78,7 +78,7 @@ class ObjParser {
       if (!parse_number(corner.substr(0, corner.find('/')), number))
         place_.fail("'", printable(corner), "' is no corner of a face");
       const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
-      // Positive from the first vertex, negative back from the last one so far.
+      // Positive indices count from the first vertex, negative ones back from the last vertex read so far.
       if (number == 0 || number < -count)
         place_.fail("a face names vertex ", number, " but ", count, " vertices stand before it");
       if (number >= static_cast<std::int64_t>(std::numeric_limits<Index>::max()))
@@ -100,10 +100,9 @@ class ObjParser {
 
 }  // namespace detail
 
-/// Reads a surface from a Wavefront OBJ file: its `v` and `f` lines, in any order; polygons are cut into
-/// fans, and what else the format knows (normals, textures, groups, materials) is passed over. A line that ends in a
-/// backslash goes on in the next. Welded, checked and scaled as in `read_stl`. Throws `InputError` with the line if it
-/// cannot be read.
+/// Reads a surface from a Wavefront OBJ file: its `v` and `f` lines, in any order. Polygons are split into fans;
+/// normals, textures, groups and materials are ignored. A backslash at the end continues a line. Scaled, welded and
+/// checked as in `read_stl`. Throws `InputError`, with the line, if the file cannot be read.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> read_obj(const std::string& path, const SurfaceFileSettings& settings) {
   detail::validate(settings, path);

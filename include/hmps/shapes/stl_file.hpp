@@ -25,8 +25,8 @@ namespace detail {
 inline constexpr std::size_t stl_header = 84;
 inline constexpr std::size_t stl_record = 50;
 
-/// Whether the bytes of an STL file are its ASCII form. Binary files may begin with "solid" too: they have the length
-/// that they announce, or a zero in the name or in the count (of less than 2^24 triangles), which no text has.
+/// Whether an STL file is ASCII. Binary files may begin with "solid" too; they are recognised by the length that their
+/// header announces, or by a zero byte in the name or the count (of less than 2^24 triangles), which no text contains.
 [[nodiscard]] inline bool is_ascii_stl(std::string_view bytes) {
   if (bytes.size() >= stl_header) {
     std::uint32_t count{};
@@ -42,7 +42,7 @@ inline constexpr std::size_t stl_record = 50;
          (first + 5 == bytes.size() || std::isspace(static_cast<unsigned char>(bytes[first + 5])));
 }
 
-/// How many triangles the binary STL file `bytes` holds. Throws `InputError` where that is not what it announces.
+/// The number of triangles in the binary STL file `bytes`. Throws `InputError` if it does not match the header.
 [[nodiscard]] inline std::size_t count_binary_stl(std::string_view bytes, const std::string& source) {
   require(bytes.size() >= stl_header, "hmps: ", source, " is no STL file: it has ", bytes.size(),
           " bytes and does not begin with 'solid'");
@@ -51,7 +51,7 @@ inline constexpr std::size_t stl_record = 50;
   const std::size_t size = stl_header + stl_record * count;
   require(size <= bytes.size(), "hmps: ", source, " ends at byte ", bytes.size(), " but announces ", count,
           " triangles in ", size, " bytes; it is cut off or no STL file");
-  // Some programs append a few bytes, or fill up with zeros; a whole triangle that is not announced is another matter.
+  // Some programs append a few bytes or pad with zeros; a whole extra triangle is an error.
   const std::string_view rest = bytes.substr(size);
   require(rest.size() < stl_record || rest.find_first_not_of('\0') == std::string_view::npos, "hmps: ", source,
           " announces ", count, " triangles, which end at byte ", size, ", but ", rest.size(),
@@ -110,16 +110,16 @@ void parse_ascii_stl(std::string_view text, const SurfaceFileSettings& settings,
     }
   }
   if (in_facet) place.fail("the file ends within a facet; it is cut off");
-  // A closed surface is whole in any case.
+  // A closed surface is complete in any case.
   if (in_solid && !settings.closed) place.fail("the file ends without 'endsolid'; it is cut off");
 }
 
 }  // namespace detail
 
-/// Reads a surface from an STL file, ASCII or binary, of one solid or several: welded (`weld`), without triangles that
-/// are there twice (`drop_repeated`), and checked (`require_closed`) unless `settings.closed` is false. Throws
-/// `InputError` with the line (ASCII) or the byte (binary) if it cannot be read, and if binary triangles follow that it
-/// does not announce.
+/// Reads a surface from an STL file, ASCII or binary, with one solid or several. Vertices are welded (`weld`), repeated
+/// triangles are dropped (`drop_repeated`), and the surface is checked (`require_closed`) unless `settings.closed` is
+/// false. Throws `InputError`, with the line (ASCII) or the byte (binary), if the file cannot be read, and if more
+/// binary triangles follow than the header announces.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> read_stl(const std::string& path, const SurfaceFileSettings& settings) {
   detail::validate(settings, path);

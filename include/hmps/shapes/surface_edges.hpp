@@ -18,7 +18,7 @@ namespace hmps::inline HMPS_ABI::detail {
 
 using Triangles = std::vector<std::array<Index, 3>>;
 
-/// An edge of a surface, and how many triangles run through it in either direction.
+/// An edge of a surface, and the number of triangles that traverse it in each direction.
 struct EdgeUse {
   Index low, high;  ///< its vertices
   int forward, backward;
@@ -56,13 +56,13 @@ struct EdgeUse {
       std::count_if(edges.begin(), edges.end(), [](const EdgeUse& e) { return !e.balanced(); }));
 }
 
-/// The triangle with its smallest vertex first: the same for the same corners in the same sense.
+/// The triangle rotated to start with its smallest vertex: equal for equal corners in the same orientation.
 [[nodiscard]] inline std::array<Index, 3> turned_to_smallest(std::array<Index, 3> t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
-/// The triangles that have the same corners, in the same sense, as an earlier one; in order.
+/// The triangles with the same corners and orientation as an earlier one, in order.
 [[nodiscard]] inline std::vector<std::size_t> repeated_triangles(const Triangles& triangles) {
   using Named = std::pair<std::array<Index, 3>, std::size_t>;
   std::vector<Named> named;
@@ -89,8 +89,8 @@ struct EdgeUse {
   return left;
 }
 
-/// The repeated triangles if the surface is as closed without them, else none: two parts of a surface may share a
-/// triangle, as two boxes that stand on the same ground.
+/// The repeated triangles if the surface is as closed without them, otherwise none: two parts may share a triangle, for
+/// example two boxes on the same ground.
 [[nodiscard]] inline std::vector<std::size_t> needless_repeats(const Triangles& triangles) {
   std::vector<std::size_t> repeated = repeated_triangles(triangles);
   if (!repeated.empty() &&
@@ -99,7 +99,7 @@ struct EdgeUse {
   return repeated;
 }
 
-/// Groups of vertices that are joined with each other.
+/// Connected groups of vertices.
 class VertexGroups {
  public:
   explicit VertexGroups(std::size_t vertices) : parent_(vertices) {
@@ -119,8 +119,8 @@ class VertexGroups {
   std::vector<Index> parent_;
 };
 
-/// The triangles of connected parts in which every triangle is there in both senses, as often in one as in the other,
-/// so that the part encloses nothing; in order.
+/// The triangles of connected parts in which every triangle occurs equally often in both orientations, so that the part
+/// encloses nothing; in order.
 [[nodiscard]] inline std::vector<std::size_t> double_sided(const Triangles& triangles, std::size_t vertices) {
   std::map<std::array<Index, 3>, int> net;
   VertexGroups parts(vertices);

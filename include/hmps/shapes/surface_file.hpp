@@ -12,7 +12,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Reads a surface by the ending of its name, .stl or .obj; see `read_stl` and `read_obj`. An open one, in millimetres:
+/// Reads a surface from an .stl or .obj file, by the extension; see `read_stl` and `read_obj`. An open one, in
+/// millimetres:
 ///
 ///     const auto mesh = read_surface<double>("organ.stl", {.scale = 1e-3, .closed = false});
 template <class S>
@@ -25,7 +26,7 @@ template <class S>
                            ".off and .3mf, ParaView reads .vtp and .vtk"));
 }
 
-/// Reads a closed surface by the ending of its name, .stl or .obj.
+/// Reads a closed surface from an .stl or .obj file, by the extension.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> read_surface(const std::string& path, double scale = 1, double tolerance = 1e-6) {
   return read_surface<S>(path, SurfaceFileSettings{scale, tolerance});

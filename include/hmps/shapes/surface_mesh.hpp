@@ -21,7 +21,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A surface of triangles, counter-clockwise seen from outside.
+/// A triangle surface; triangles are counter-clockwise seen from outside.
 template <class S>
 struct SurfaceMesh {
   std::vector<Vector<S, 3>> vertices;           ///< m
@@ -29,7 +29,7 @@ struct SurfaceMesh {
   std::string source = "the surface";           ///< file name, for messages
 };
 
-/// The box around the vertices. Throws `InputError` if there are none, or one is not finite.
+/// The bounding box of the vertices. Throws `InputError` if there is no vertex or one is not finite.
 template <class S>
 [[nodiscard]] Box<S, 3> bounds(const SurfaceMesh<S>& mesh) {
   require(!mesh.vertices.empty(), "hmps: ", mesh.source, " has no vertices; check that the file holds a surface");
@@ -43,12 +43,11 @@ template <class S>
   return box;
 }
 
-/// Enclosed volume (m3); positive when triangles are counter-clockwise seen from outside. The
-/// surface must be closed.
+/// The enclosed volume (m3) of a closed surface; positive if triangles are counter-clockwise seen from outside.
 template <class S>
 [[nodiscard]] double volume(const SurfaceMesh<S>& mesh) {
   if (mesh.vertices.empty()) return 0;
-  // About a vertex rather than the origin, which may be metres away.
+  // Relative to a vertex, because the origin may be metres away.
   const Vector<double, 3> base = mesh.vertices.front().template cast<double>();
   double six = 0;
   for (const auto& t : mesh.triangles) {
@@ -60,8 +59,8 @@ template <class S>
   return six / 6;
 }
 
-/// Merges vertices within `tolerance` of the largest extent (STL repeats every corner), and drops
-/// the triangles that thereby lose a corner.
+/// Merges vertices closer than `tolerance` times the largest extent (STL repeats every corner), and drops triangles
+/// that lose a corner.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> weld(const SurfaceMesh<S>& mesh, double tolerance = 1e-6) {
   require(tolerance >= 0 && tolerance < 0.1, "hmps: vertices are to be merged within ", tolerance,
@@ -94,8 +93,8 @@ template <class S>
   return result;
 }
 
-/// Drops the triangles that have the same corners, in the same sense, as an earlier one (a file that holds each
-/// triangle twice), unless the surface would be less closed without them.
+/// Drops triangles with the same corners and orientation as an earlier one (some files hold each triangle twice),
+/// unless the surface would be less closed without them.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> drop_repeated(SurfaceMesh<S> mesh) {
   const auto repeated = detail::needless_repeats(mesh.triangles);
@@ -105,7 +104,7 @@ template <class S>
 
 namespace detail {
 
-/// Throws `InputError` unless the surface has triangles, each with three different corners of its finite vertices.
+/// Throws `InputError` unless the surface has triangles, and each has three different, finite vertices.
 template <class S>
 void require_triangles(const SurfaceMesh<S>& mesh) {
   (void)bounds(mesh);
@@ -121,7 +120,7 @@ void require_triangles(const SurfaceMesh<S>& mesh) {
   }
 }
 
-/// What keeps a surface from being closed, with the middle of the first edge of each kind in m.
+/// The defects that keep a surface from being closed, with the midpoint of the first edge of each kind in m.
 template <class S>
 struct EdgeFaults {
   struct Kind {
@@ -143,7 +142,7 @@ struct EdgeFaults {
   }
 };
 
-/// Throws `InputError` where triangles are there twice, in one sense or in both. Welded surfaces only.
+/// Throws `InputError` for repeated triangles, in either orientation. For welded surfaces.
 template <class S>
 void require_single(const SurfaceMesh<S>& mesh) {
   const auto middle = [&](std::size_t k) {
@@ -163,7 +162,7 @@ void require_single(const SurfaceMesh<S>& mesh) {
                              "encloses nothing; let a mesh editor keep the outer one of each two"));
 }
 
-/// Throws `InputError` where neighbouring triangles are not oriented alike.
+/// Throws `InputError` unless neighbouring triangles have consistent orientation.
 template <class S>
 void require_oriented(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   require(faults.turned.count == 0, "hmps: ", mesh.source, " has neighbouring triangles of opposite orientation at ",
@@ -173,16 +172,16 @@ void require_oriented(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
 
 }  // namespace detail
 
-/// Throws `InputError` unless the (welded) surface encloses a solid: finite vertices, triangles with
-/// three different corners of `vertices`, and each edge run through as often in one direction as in
-/// the other: by two triangles, or by four where two parts touch along an edge. Nor may triangles be there twice: in
-/// one sense (unless the surface were open without them), or in both in a whole part. The message names the position
-/// of what is wrong. Triangles that intersect are not looked for.
+/// Throws `InputError` unless the (welded) surface encloses a solid: all vertices are finite, each triangle has three
+/// different corners, and each edge is traversed equally often in both directions: by two triangles, or by four where
+/// two parts touch along an edge. Triangles must not be repeated: neither in the same orientation (unless the surface
+/// were open without them), nor in both orientations throughout a part. The message gives the position of the defect.
+/// Does not look for intersecting triangles.
 template <class S>
 void require_closed(const SurfaceMesh<S>& mesh) {
   detail::require_triangles(mesh);
   const detail::EdgeFaults<S> faults(mesh);
-  // Triangles that are there twice share their edges with others.
+  // Repeated triangles share their edges with others.
   if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
   const std::string crowded =
       faults.crowded.count == 0
@@ -199,7 +198,7 @@ void require_closed(const SurfaceMesh<S>& mesh) {
 }
 
 namespace detail {
-/// The solid angle, with its sign, of the triangle a, b, c seen from the origin (van Oosterom and Strackee 1983).
+/// The signed solid angle of the triangle a, b, c seen from the origin (van Oosterom and Strackee 1983).
 [[nodiscard]] inline double solid_angle(const Vector<double, 3>& a, const Vector<double, 3>& b,
                                         const Vector<double, 3>& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
@@ -207,8 +206,8 @@ namespace detail {
 }
 }  // namespace detail
 
-/// Whether `x` lies in the closed surface: whether it winds around x (sum of solid angles). Linear
-/// in the number of triangles; `fill_lattice` is much faster for a lattice.
+/// Whether `x` lies inside the closed surface, by its winding number (sum of solid angles). Linear in the number of
+/// triangles; `fill_lattice` is much faster for a lattice.
 template <class S>
 [[nodiscard]] bool inside(const SurfaceMesh<S>& mesh, const Vector<S, 3>& x) {
   double angle = 0;

@@ -17,10 +17,10 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// How a file of a surface is read.
+/// Settings for reading a surface file.
 struct SurfaceFileSettings {
-  double scale = 1;         ///< what coordinates are multiplied by: 1e-3 for files in millimetres
-  double tolerance = 1e-6;  ///< vertices nearer than this share of the largest extent are merged (`weld`)
+  double scale = 1;         ///< factor for coordinates: 1e-3 for files in millimetres
+  double tolerance = 1e-6;  ///< vertices closer than this fraction of the largest extent are merged (`weld`)
   bool closed = true;       ///< whether the surface must be closed; if not, fill it with `fill_open_lattice`
 };
 
@@ -32,7 +32,7 @@ namespace detail {
   return result;
 }
 
-/// Where a text is read, for messages.
+/// The current position in a text, for messages.
 struct TextPlace {
   const std::string& source;
   std::size_t line = 0;
@@ -42,7 +42,7 @@ struct TextPlace {
   }
 };
 
-/// Three finite numbers from the front of `rest`, times `scale`.
+/// Removes three finite numbers from the front of `rest` and multiplies them by `scale`.
 template <class S>
 [[nodiscard]] Vector<S, 3> take_point(std::string_view& rest, double scale, const TextPlace& place) {
   Vector<S, 3> point;
@@ -56,8 +56,7 @@ template <class S>
   return point;
 }
 
-/// Prepares the bytes of a text: cuts off a byte-order mark of UTF-8, refuses UTF-16, and ends lines in LF where they
-/// end in CR alone.
+/// Prepares the bytes of a text: removes a UTF-8 byte-order mark, refuses UTF-16, and converts lone CR line ends to LF.
 inline void clean_text(std::string& text, const std::string& source) {
   require(!text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF"), "hmps: ", source,
           " is a text in UTF-16; save it in UTF-8 or ASCII");
@@ -72,7 +71,7 @@ void add_triangle(SurfaceMesh<S>& mesh, const std::array<Vector<S, 3>, 3>& corne
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// Welds the surface as it came from the file, drops triangles that are there twice, and checks what is left.
+/// Welds the surface, drops repeated triangles, and checks the rest.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> finished(const SurfaceMesh<S>& read, const SurfaceFileSettings& settings) {
   SurfaceMesh<S> mesh = drop_repeated(weld(read, settings.tolerance));

@@ -31,19 +31,18 @@ template <class S>
   return (level - S(1)) / slope;
 }
 
-/// Centre and radius of a `Tube` at one point of its centre line.
+/// Centre and radius of a `Tube` at one vertex of its centre line.
 template <class S, int D>
 struct TubeRow {
   Vector<S, D> centre;  ///< m
   S radius{};           ///< m, positive
 };
 
-/// Tube along a polyline with radii interpolated between its points and round ends: a union of
-/// `RoundCone`s, exact outside.
+/// A tube along a polyline, with interpolated radii and round ends: a union of `RoundCone`s. Exact outside.
 template <class S, int D>
 class Tube {
  public:
-  /// Throws `InputError` without rows, or at a row that is not finite or has no positive radius.
+  /// Throws `InputError` if there is no row, or if a row is not finite or has no positive radius.
   explicit Tube(std::vector<TubeRow<S, D>> rows) {
     require(!rows.empty(), "hmps: a tube needs at least one row of centre and radius");
     for (std::size_t k = 0; k < rows.size(); ++k)
@@ -73,9 +72,9 @@ struct StackRow {
   Vector<S, 2> half_axes;  ///< m, each positive, in the same order
 };
 
-/// Superelliptic sections stacked along a coordinate axis, centre and half axes interpolated
-/// linearly between the rows, with flat ends at the first and the last level. First order within
-/// the sections; the slope of the mantle along the axis is not counted.
+/// A body of superelliptic sections stacked along a coordinate axis, with flat ends at the first and the last level.
+/// Centre and half axes are interpolated linearly between the rows. First order within a section; ignores the slope of
+/// the mantle along the axis.
 template <class S>
 class Stack {
  public:
@@ -137,9 +136,9 @@ struct PlateRow {
   S bow{};              ///< m, by which the edges |u| = half_width stand ahead of the middle, along across x tangent
 };
 
-/// Plate or strip swept along a polyline that lies in a plane normal to `across`: superelliptic
-/// sections `half_width` by `half_thickness`, interpolated linearly, optionally bowed by
-/// bow (u / half_width)^2 like a trough, with flat ends. First order near the surface.
+/// A plate or strip swept along a polyline in a plane normal to `across`: superelliptic sections `half_width` by
+/// `half_thickness`, interpolated linearly, optionally bent like a trough by bow (u / half_width)^2, with flat ends.
+/// First order near the surface.
 template <class S>
 class Plate {
  public:
@@ -187,8 +186,8 @@ class Plate {
     const S before = piece == 0 && fraction <= S(0) ? -arm.dot(along) : S(0);
     const S behind = piece + 2 == rows_.size() && fraction >= S(1) ? arm.dot(along) : S(0);
     const S end = std::max(before, behind);
-    // Beyond an inner corner the offset is the whole distance to the corner, else its part along
-    // the normal; beyond an end the rest is `end`.
+    // Beyond an inner corner the offset is the whole distance to the corner, otherwise its component along the normal;
+    // beyond an end the rest is `end`.
     const S normal_part = arm.dot(across_.cross(along));
     const S v = end > S(0) ? normal_part : std::copysign(std::sqrt(least), normal_part);
     const S width = a.half_width + fraction * (b.half_width - a.half_width);
@@ -199,8 +198,8 @@ class Plate {
     return end > S(0) ? std::max(section, end) : section;
   }
 
-  /// Length of the centre line from its first row to the nearest point of `x`, in metres: the
-  /// coordinate in which control regions along an organ are laid out.
+  /// Arc length in metres of the centre line from its first row to the point nearest to `x`: the coordinate for control
+  /// regions along an organ.
   [[nodiscard]] S arc(const Vector<S, 3>& x) const {
     const Vector<S, 3> flat = x - (x - rows_.front().centre).dot(across_) * across_;
     S least = std::numeric_limits<S>::max();

@@ -42,11 +42,11 @@ namespace detail {
 
 }  // namespace detail
 
-/// The triangles of a surface in a tree of boxes: how often the surface winds around a point, and how far it is, in a
-/// time that grows with the logarithm of the number of triangles. The winding number (Jacobson et al. 2013) is 1 in a
-/// closed surface, 0 outside, and changes gradually across the holes of an open one. Triangles that are far from the
-/// point act together, as a dipole and its first two moments (Barill et al. 2018): how far is what `accuracy` says, in
-/// radii of their group. Keeps its own copy of the triangles, in double. Calls are safe from several threads.
+/// A bounding-volume tree over the triangles of a surface: winding numbers and distances in a time logarithmic in the
+/// number of triangles. The winding number (Jacobson et al. 2013) is 1 inside a closed surface, 0 outside, and changes
+/// gradually across the holes of an open one. Groups of triangles far from the point are replaced by a dipole and its
+/// first two moments (Barill et al. 2018), beyond `accuracy` radii of the group. Stores a copy of the triangles in
+/// double. Thread-safe.
 class TriangleTree {
   using V = Vector<double, 3>;
 
@@ -70,8 +70,7 @@ class TriangleTree {
     triangles_ = std::move(sorted);
   }
 
-  /// How often the surface winds around `x` (m): the sum of solid angles over 4 pi. On the surface itself the value
-  /// jumps.
+  /// The winding number of the surface around `x` (m): the sum of solid angles over 4 pi. Discontinuous on the surface.
   [[nodiscard]] double winding_number(const V& x) const {
     double angle = 0;
     visit([&](const Node& node) {
@@ -92,7 +91,7 @@ class TriangleTree {
   /// The distance in m from `x` (m) to the nearest triangle, exact up to rounding.
   [[nodiscard]] double distance(const V& x) const {
     double least = std::numeric_limits<double>::infinity();
-    // The nearer child first; what waits is looked at again when its turn comes.
+    // Visits the nearer child first and tests the other one again later.
     std::array<std::pair<double, std::size_t>, depth> waiting;
     std::size_t count = 0;
     waiting[count++] = {nodes_[0].squared_distance(x), 0};
@@ -118,7 +117,7 @@ class TriangleTree {
 
  private:
   using Corners = std::vector<std::array<V, 3>>;
-  /// Halving 2^32 triangles gives 32 levels; each leaves one node to wait.
+  /// Halving 2^32 triangles gives 32 levels, each of which leaves one node on the stack.
   static constexpr std::size_t depth = 72;
   static constexpr std::size_t leaf = 4;
 
@@ -152,7 +151,7 @@ class TriangleTree {
     }
   };
 
-  /// Calls `enter(node)` from the root on, and for the children of those for which it holds.
+  /// Calls `enter(node)` from the root on, and descends where it returns true.
   template <class Enter>
   void visit(Enter&& enter) const {
     std::array<std::size_t, depth> waiting;
@@ -225,7 +224,7 @@ class TriangleTree {
   void build(std::vector<std::size_t>& order, std::size_t begin, std::size_t end) {
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = order.begin() + static_cast<std::ptrdiff_t>(end);
-    // Sums must not depend on how a library divides.
+    // The split must not depend on the standard library, since sums depend on it.
     std::sort(first, last);
     const std::size_t at = nodes_.size();
     nodes_.push_back(summed(order, begin, end));
