@@ -49,7 +49,6 @@ function(hmps_parsed_once target)
     file(CONFIGURE OUTPUT ${empty} CONTENT "")
     add_library(hmps_parsed OBJECT ${empty})
     target_link_libraries(hmps_parsed PRIVATE hmps_development hmps_native)
-    target_compile_options(hmps_parsed PRIVATE ${HMPS_USERS_WARNINGS})  # of what is no template, here or nowhere
     target_precompile_headers(hmps_parsed PRIVATE <hmps/hmps.hpp>)
   endif()
   target_precompile_headers(${target} REUSE_FROM hmps_parsed)
