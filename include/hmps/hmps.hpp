@@ -63,6 +63,8 @@
 #include "hmps/diagnostics/jacobian.hpp"
 #include "hmps/diagnostics/momentum.hpp"
 #include "hmps/diagnostics/monitor.hpp"
+#include "hmps/diagnostics/strain.hpp"
+#include "hmps/diagnostics/stress.hpp"
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/lanes/blocks.hpp"
