@@ -88,6 +88,7 @@
 #include "hmps/output/file_replacement.hpp"
 #include "hmps/output/vtk_field.hpp"
 #include "hmps/output/vtu_file.hpp"
+#include "hmps/particles/carried_surface.hpp"
 #include "hmps/particles/fitted.hpp"
 #include "hmps/particles/fitted_cloud.hpp"
 #include "hmps/particles/fitted_field.hpp"
