@@ -43,7 +43,8 @@ class CarriedSurface {
   /// A particle's share in a point.
   struct Share {
     Index particle;
-    double weight;  ///< phi
+    double weight;  ///< phi, of which some may be negative
+    double mean;    ///< w over the sum of w, for `mean`
   };
 
   /// @param reference  reference positions of the particles in m
@@ -95,19 +96,32 @@ class CarriedSurface {
 
   /// Writes to `values` what `quantity` of the particles is at the points, by the same coefficients: exact where it is
   /// linear in space. Outside of the particles it is extrapolated and may pass the values of all of them, below zero
-  /// too. Throws `InputError` for views of other sizes.
+  /// too: for a smooth picture of a stress see `mean`. Throws `InputError` for views of other sizes.
   template <class Q, class P, Executor E = Serial>
   void interpolate(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
+    combine(&Share::weight, quantity, values, execute);
+  }
+  /// Writes to `values` the mean of `quantity` over the particles around each point, weighted by w: never beyond the
+  /// values of the particles, and on a surface rather what there is about a spacing below it. Throws `InputError` for
+  /// views of other sizes.
+  template <class Q, class P, Executor E = Serial>
+  void mean(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
+    combine(&Share::mean, quantity, values, execute);
+  }
+
+ private:
+  template <class Q, class P, class E>
+  void combine(double Share::*factor, const ScalarView<Q>& quantity, const ScalarView<P>& values,
+               const E& execute) const {
     require_size(quantity, particles_, "a quantity");
     require_size(values, size(), "values");
     execute(size(), [&](std::size_t p) {
       double sum = 0;
-      for (const Share& share : shares(p)) sum += share.weight * static_cast<double>(quantity[share.particle]);
+      for (const Share& share : shares(p)) sum += share.*factor * static_cast<double>(quantity[share.particle]);
       values[p] = static_cast<P>(sum);
     });
   }
 
- private:
   template <class T, class Belongs>
   [[nodiscard]] static std::vector<Share> shares_of(const FixedRadiusSearch<T, D>& search,
                                                     const Vector<double, D>& point, double spacing,
@@ -144,7 +158,7 @@ class CarriedSurface {
       const Monomials m = monomials(k);
       const double distance = spacing * m.template tail<D>().norm();
       nearest = std::min(nearest, distance);
-      shares.push_back({k, weight(distance / radius)});
+      shares.push_back({k, weight(distance / radius), 0});
       M += shares.back().weight * m * m.transpose();
     }
     if (found.size() <= D || nearest + spacing > radius) return false;
@@ -154,7 +168,10 @@ class CarriedSurface {
     spread.computeDirect(M.template block<D, D>(1, 1) / M(0, 0) - middle * middle.transpose(), Eigen::EigenvaluesOnly);
     if (spread.eigenvalues()[0] < least_spread) return false;
     const Monomials factor = M.ldlt().solve(Monomials(Monomials::Unit(0)));
-    for (Share& share : shares) share.weight *= factor.dot(monomials(share.particle));
+    for (Share& share : shares) {
+      share.mean = share.weight / M(0, 0);
+      share.weight *= factor.dot(monomials(share.particle));
+    }
     return true;
   }
   [[nodiscard]] static double weight(double s) {

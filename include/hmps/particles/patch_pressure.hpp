@@ -36,8 +36,10 @@ template <class T, class S, Executor E = Serial>
   std::vector<Index> found;
   for (std::size_t i = 0; i < is_near.size(); ++i)
     if (is_near[i] != 0) found.push_back(static_cast<Index>(i));
-  require(!found.empty(), "hmps: no particle lies within ", distance, " m of ", patch.source,
-          "; check that both are in metres, or give a larger distance (a spacing)");
+  require(
+      !found.empty(), "hmps: no particle lies within ", distance, " m of ", patch.source,
+      "; check that both are in metres, and that the body has particles there: a part thinner than a spacing or two "
+      "has none, or loses them to remove_weak; else give a larger distance");
   return found;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -47,6 +48,15 @@ TEST(CarriedSurface, InterpolatesWhatIsLinearExactly) {
   for (const V& r : ball.reference) quantity.push_back(slope.dot(r));
   carried.interpolate(scalars(quantity), scalars(found));
   for (std::size_t p = 0; p < found.size(); ++p) EXPECT_NEAR(found[p], slope.dot(ball.mesh.vertices[p]), 2 * rounding);
+
+  // The mean stays between the values of the particles: those below the surface, where the points lie beyond them.
+  carried.mean(scalars(quantity), scalars(found));
+  const auto [least, largest] = std::minmax_element(quantity.begin(), quantity.end());
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    EXPECT_GT(found[p], *least);
+    EXPECT_LT(found[p], *largest);
+    EXPECT_NEAR(found[p], slope.dot(ball.mesh.vertices[p]), slope.norm() * 2.5 * l0);  // none is further away
+  }
 }
 
 /// A bar along x of 60 x 20 x 20 mm, bent to a circle about y of the given radius: sections stay plane and across.
