@@ -51,8 +51,8 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const hmps::RaisedSkin<double, 3> raised(X, skin, hmps::MeshDistance<double>(mesh), l0);
   hmps::MetaballContact<double, 3> contact(
       {.spacing = l0, .density = rho, .stiffness = hmps::PenaltyStiffness::fixed(10 * young / (l0 * l0))});
-  contact.add_pair(contact.add_organ({"body", skin}), contact.add_organ({"plate", {}, wall}),
-                   {.roles = hmps::Roles::only_first_is_slave});
+  const auto pressed = contact.add_organ({"body", skin}), pressing = contact.add_organ({"plate", {}, wall});
+  contact.add_pair(pressed, pressing, {.roles = hmps::Roles::only_first_is_slave});
   const auto force = [&](const auto& at, const auto& speed, const auto& density) {
     internal(at.part(0, n), speed.part(0, n), density.part(0, n));
     raised(at, F, hmps::vectors(seen));
@@ -68,7 +68,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   for (const auto i : hmps::particles_near(X.part(0, n), base, l0)) moves[i] = 0;
   const hmps::RelaxationSettings settings{
       .spacing = l0, .load = young * squeeze * volume / height, .moves = [&](std::size_t i) { return moves[i] != 0; }};
-  press::Output output(mesh, X.part(0, n), l0, 1.5 * young * squeeze);
+  press::Output output(mesh, X.part(0, n), l0, plate, 1.5 * young * squeeze);
   const int steps = static_cast<int>(std::ceil(3 * squeeze * height / l0));
   for (int k = 0; k <= steps; ++k) {
     const double depth = squeeze * height * k / steps;
@@ -76,7 +76,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
     if (k > 0) hmps::relax(force, x, v, f, rho, settings);
     double reaction = 0;
     for (std::size_t i = n; i < reference.size(); ++i) reaction += l0 * l0 * l0 * load[i][2];
-    output.add(x.part(0, n), F.part(0, n), tissue, plate, depth, reaction);
+    output.add(x.part(0, n), F.part(0, n), tissue, depth, reaction);
   }
   output.save();
 }

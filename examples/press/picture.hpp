@@ -23,12 +23,13 @@ class Picture {
   using Place = std::pair<double, double>;
 
  public:
-  /// Of surfaces that lie about in `box`; colours run from 0 to `most`.
+  /// Of what lies in `box`; colours run from 0 to `most`.
   Picture(const hmps::Box<double, 3>& box, double most)
-      : middle_((box.lower + box.upper) / 2),
-        scale_(0.85 * width / (box.upper - box.lower).norm()),
-        most_(most),
-        canvas_(2 * width, height + 60) {}
+      : middle_((box.lower + box.upper) / 2), most_(most), canvas_(2 * width, height + 60) {
+    const V size = box.upper - box.lower;
+    const V seen(size[0], 0, std::sin(tilt) * size[1] + std::cos(tilt) * size[2]);
+    scale_ = std::min((width - 20) / seen[0], (height - 50) / seen[2]);
+  }
 
   /// Draws the surface, and the underside of the plate, which has come down by `depth`.
   void draw(const std::vector<V>& vertices, const std::vector<std::array<hmps::Index, 3>>& triangles,
@@ -60,6 +61,7 @@ class Picture {
 
  private:
   static constexpr int width = 460, height = 360;
+  static constexpr double tilt = 0.35;  // of the view, downward
   struct Face {
     double depth;
     std::array<Place, 3> corners;
@@ -68,7 +70,7 @@ class Picture {
 
   /// x to the right, y into the picture, z up.
   [[nodiscard]] static V turned(const V& r) {
-    const double c = std::cos(0.35), s = std::sin(0.35);
+    const double c = std::cos(tilt), s = std::sin(tilt);
     return {r[0], c * r[1] - s * r[2], s * r[1] + c * r[2]};
   }
   [[nodiscard]] double left() const { return first_ ? 0 : width; }
@@ -117,7 +119,7 @@ class Picture {
   }
 
   V middle_;
-  double scale_, most_;
+  double scale_ = 1, most_;
   bool first_ = true;
   examples::Canvas canvas_;
 };
