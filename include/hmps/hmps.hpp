@@ -5,6 +5,7 @@
 /// (`hmps/executors/`). Each header also stands alone: a program that includes only what it uses
 /// compiles faster.
 
+#include "hmps/analysis/lattice_shift.hpp"
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/relaxation.hpp"
 #include "hmps/analysis/stable_step.hpp"
