@@ -42,6 +42,9 @@ struct VtuSettings {
 
 namespace detail {
 
+/// Of this machine, as VTK calls it.
+inline constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+
 /// `text` as it may stand in XML between quotes. Bytes that XML cannot hold become question marks.
 [[nodiscard]] inline std::string xml(std::string_view text) {
   std::string result;
@@ -130,7 +133,6 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
 /// numbers, and a time that is not finite.
 [[nodiscard]] inline std::string vtu_text(const VtkField& positions, std::span<const VtkField> fields,
                                           const VtuSettings& settings = {}) {
-  static_assert(std::endian::native == std::endian::little, "hmps: VTU files are written in little-endian order");
   const std::size_t size = positions.size();
   const std::size_t cells = settings.triangles.empty() ? size : settings.triangles.size();
   require(positions.components == 3, "hmps: the positions of a VTU file have ", positions.components,
@@ -143,8 +145,9 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
   detail::require_fields(size, fields);
   detail::VtkArrays arrays;
   arrays.head =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
+      std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"") +
+      detail::byte_order +
+      "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
       "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
       detail::shortest(settings.time) + "</DataArray>\n";
   for (const VtkNames& names : settings.names) {
