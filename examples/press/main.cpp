@@ -60,14 +60,17 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   };
 
   // What is held: the base, the lowest tenth of the surface; and the plate, which goes down by a third of a spacing at
-  // a time. At rest: what is unbalanced is small beside E times the strain on the mean section.
+  // a time. At rest: what is unbalanced is small beside what the plate felt before, or, at first, beside a thousandth
+  // of E times the strain on the mean section.
   const auto base = hmps::surface_patch(
       mesh, [&](const Vector& middle, const Vector&) { return middle[2] < lower[2] + height / 10; });
   std::vector<char> moves(reference.size(), 0);
   std::fill_n(moves.begin(), n, char(1));
   for (const auto i : hmps::particles_near(X.part(0, n), base, l0)) moves[i] = 0;
-  const hmps::RelaxationSettings settings{
-      .spacing = l0, .load = young * squeeze * volume / height, .moves = [&](std::size_t i) { return moves[i] != 0; }};
+  hmps::RelaxationSettings settings{
+      .spacing = l0, .tolerance = 3e-3, .load = 1e-3 * young * squeeze * volume / height, .moves = [&](std::size_t i) {
+        return moves[i] != 0;
+      }};
   press::Output output(mesh, X.part(0, n), l0, plate, 1.5 * young * squeeze);
   const int steps = static_cast<int>(std::ceil(3 * squeeze * height / l0));
   for (int k = 0; k <= steps; ++k) {
@@ -76,6 +79,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
     if (k > 0) hmps::relax(force, x, v, f, rho, settings);
     double reaction = 0;
     for (std::size_t i = n; i < reference.size(); ++i) reaction += l0 * l0 * l0 * load[i][2];
+    settings.load = std::max(settings.load, reaction);
     output.add(x.part(0, n), F.part(0, n), tissue, depth, reaction);
   }
   output.save();

@@ -137,7 +137,8 @@ class CarriedSurface {
     throw InputError(message("hmps: point ", p, " of a carried surface, at (", point.transpose(),
                              "), lies further than 8 spacings of ", spacing,
                              " m from particles that span space; check that surface and particles are of one body in "
-                             "one unit, or give a smaller spacing (a wall of one layer carries no surface)"));
+                             "one unit, or give a smaller spacing: a wall of one layer carries no surface, nor does a "
+                             "part that remove_weak took away"));
   }
 
   /// The shares of the particles `found` within `radius`; false where the radius should be larger.
