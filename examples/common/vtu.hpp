@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -10,22 +9,18 @@
 #include <vector>
 
 #include <hmps/core/view.hpp>
+#include <hmps/output/vtu_file.hpp>
 #include "csv_writer.hpp"
 #include "files.hpp"
 
 namespace examples {
 
-/// One number or vector per particle of a frame, with its name in ParaView.
-struct Field {
-  std::string name;
-  int components = 1;
-  std::string type = "Float32";  ///< of VTK: Float32, Float64, Int32, UInt8
-  std::string bytes;             ///< the values, particle after particle
-
+/// The library's field, made of vectors that are collected already.
+struct Field : hmps::VtkField {
   /// Values of `T`, the type that VTK calls `type`.
   template <class T>
   static Field of(std::string name, int components, const char* type, const std::vector<T>& values) {
-    Field field{std::move(name), components, type, std::string(values.size() * sizeof(T), '\0')};
+    Field field{{std::move(name), components, type, std::string(values.size() * sizeof(T), '\0')}};
     if (!values.empty()) std::memcpy(field.bytes.data(), values.data(), field.bytes.size());
     return field;
   }
@@ -49,58 +44,14 @@ template <class T, int N>
   return Field::of(std::move(name), N, "Float32", values);
 }
 
-/// A cloud of particles as the text of a VTK file (.vtu, unstructured grid of vertices). `positions`
-/// is in m and has three components; the fields follow as point data in appended raw form.
-/// Throws `InputError` if a field has another number of particles than `positions`.
+/// A cloud of particles as the bytes of a VTK file, see `hmps::vtu_text`.
 [[nodiscard]] inline std::string vtu(const Field& positions, std::span<const Field> fields, double time) {
-  static_assert(std::endian::native == std::endian::little, "the frames are written in little-endian order");
-  const std::size_t size = positions.bytes.size() / (positions.type == "Float64" ? 24 : 12);
-  std::string head, data;
-  const auto array = [&](const Field& field) {
-    head += "<DataArray type=\"" + field.type + "\" Name=\"" + field.name + "\" NumberOfComponents=\"" +
-            std::to_string(field.components) + "\" format=\"appended\" offset=\"" + std::to_string(data.size()) +
-            "\"/>\n";
-    const auto length = static_cast<std::uint64_t>(field.bytes.size());
-    data.append(reinterpret_cast<const char*>(&length), sizeof(length));
-    data += field.bytes;
-  };
-  std::vector<std::int32_t> connectivity(size), offsets(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    connectivity[i] = static_cast<std::int32_t>(i);
-    offsets[i] = static_cast<std::int32_t>(i + 1);
-  }
-  head +=
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
-      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
-      to_text(time) + "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(size) +
-      "\" NumberOfCells=\"" + std::to_string(size) + "\">\n<Points>\n";
-  array(positions);
-  head += "</Points>\n<Cells>\n";
-  array(Field::of("connectivity", 1, "Int32", connectivity));
-  array(Field::of("offsets", 1, "Int32", offsets));
-  array(Field::of("types", 1, "UInt8", std::vector<std::uint8_t>(size, 1)));  // 1: VTK_VERTEX
-  head += "</Cells>\n<PointData>\n";
-  for (const Field& field : fields) {
-    const std::size_t width = field.type == "Float64" ? 8 : field.type == "UInt8" ? 1 : 4;
-    hmps::require(field.bytes.size() == size * width * static_cast<std::size_t>(field.components), "the field ",
-                  field.name, " of a frame has ",
-                  field.bytes.size() / (width * static_cast<std::size_t>(field.components)),
-                  " particles, its positions have ", size);
-    array(field);
-  }
-  head += "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  return head + data + "\n</AppendedData>\n</VTKFile>\n";
+  return hmps::vtu_text(positions, std::vector<hmps::VtkField>(fields.begin(), fields.end()), {.time = time});
 }
 
 /// The text of a ParaView collection (.pvd) that lists `frames`: time in s, file name.
 [[nodiscard]] inline std::string pvd(std::span<const std::pair<double, std::string>> frames) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      "<Collection>\n";
-  for (const auto& [time, file] : frames)
-    text += "<DataSet timestep=\"" + to_text(time) + "\" group=\"\" part=\"0\" file=\"" + file + "\"/>\n";
-  return text + "</Collection>\n</VTKFile>\n";
+  return hmps::pvd_text(frames);
 }
 
 }  // namespace examples

@@ -11,7 +11,7 @@ import re
 import sys
 
 LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact", "motion", "shapes", "particles",
-          "time", "analysis", "diagnostics", "executors"]
+          "time", "analysis", "diagnostics", "output", "executors"]
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 # What is longer today, and by how much at most: to be divided, not to be added to.

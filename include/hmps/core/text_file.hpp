@@ -40,7 +40,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return text;
 }
 
-/// Quotes a piece of a file for a message: unprintable bytes as \xNN, cut after 40 characters.
+/// A piece of a file for a message: what cannot be printed as hexadecimal escapes, cut after 40 characters.
 [[nodiscard]] inline std::string printable(std::string_view text) {
   constexpr std::size_t most = 40;
   constexpr std::string_view digits = "0123456789abcdef";

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/diagnostics/energy.hpp"
+#include "hmps/laws/law.hpp"
+
+/// Stress for output, from deformation gradients and the law: `cauchy_stress` and `von_mises_stress` of one particle,
+/// the same in the plural for all of them. The first Piola-Kirchhoff stress of one particle is `first_piola_kirchhoff`.
+/// It is the stress of the law alone: what `artificial`, `viscous` and `mean_dilatation` add to the force is not in it.
+/// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 5;
+/// Holzapfel, Nonlinear Solid Mechanics, 2000, chapter 3.
+namespace hmps::inline HMPS_ABI {
+
+/// The deformation gradient in space of one in the plane, F33 = 1.
+template <class T>
+[[nodiscard]] Matrix<T, 3> plane_strain(const Matrix<T, 2>& F) {
+  Matrix<T, 3> result = Matrix<T, 3>::Identity();
+  result.template topLeftCorner<2, 2>() = F;
+  return result;
+}
+
+/// The Cauchy stress in Pa, force per current area: sigma = P F^T / J, with P = dW/dF by \paper{7} and J = det F.
+/// Symmetric up to rounding for laws that do not change under rotation, which are all but `LinearElastic`. In two
+/// dimensions its part in the plane. `F` must not be singular.
+template <class Law, class T, int D>
+[[nodiscard]] Matrix<T, D> cauchy_stress(const Law& law, const Matrix<T, D>& F) {
+  const Matrix<T, D> P = first_piola_kirchhoff(law, F);
+  return P * F.transpose() / determinant(F);
+}
+
+/// The von Mises stress in Pa of a Cauchy stress: sqrt(3/2 s : s), with s the deviator of its symmetric part. In simple
+/// tension it is the tension, in simple shear sqrt(3) times the shear stress; it does not feel pressure.
+template <class T>
+[[nodiscard]] T von_mises_stress(const Matrix<T, 3>& cauchy) {
+  const auto square = [](T x) { return x * x; };
+  const T normal =
+      square(cauchy(0, 0) - cauchy(1, 1)) + square(cauchy(1, 1) - cauchy(2, 2)) + square(cauchy(2, 2) - cauchy(0, 0));
+  const T shear =
+      square(cauchy(0, 1) + cauchy(1, 0)) + square(cauchy(1, 2) + cauchy(2, 1)) + square(cauchy(2, 0) + cauchy(0, 2));
+  return std::sqrt(normal / T(2) + shear * T(0.75));
+}
+
+/// The same at the deformation gradient `F` of a particle with the law `law`. In two dimensions it is that of plane
+/// strain, with the stress across the plane, so that the law must also work in three.
+template <class Law, class T, int D>
+[[nodiscard]] T von_mises_stress(const Law& law, const Matrix<T, D>& F) {
+  if constexpr (D == 2) {
+    return von_mises_stress(cauchy_stress(law, plane_strain(F)));
+  } else {
+    return von_mises_stress(cauchy_stress(law, F));
+  }
+}
+
+namespace detail {
+
+/// Throws `StateError` at the first particle whose `values`, called `name`, are not finite.
+template <class R, int N, class T, int D>
+void require_finite_result(const View<R, N>& values, const MatrixView<T, D>& F, const char* name) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bool finite = true;
+    for (int c = 0; c < N; ++c) finite = finite && is_finite(values(i, c));
+    if (finite) continue;
+    const Matrix<double, D> gradient = F[i].template cast<double>();
+    throw StateError(message("hmps: the ", name, " of particle ", i, " is not finite; its deformation gradient has ",
+                             "det F = ", determinant(gradient),
+                             ": where that is not positive the particle is crushed or turned inside out; take a "
+                             "smaller step, or wrap the law as Continued{law}"));
+  }
+}
+
+/// Writes `value(law, F)`, in double, of every particle by `write(i, value)`.
+template <class T, int D, class Material, class Value, class Write, class E>
+void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const Value& value, const Write& write,
+                     const E& execute) {
+  execute(F.size(), [&](std::size_t i) {
+    const Matrix<double, D> gradient = F[i].template cast<double>();
+    write(i, value(material_at(material, i), gradient));
+  });
+}
+
+}  // namespace detail
+
+/// Writes the Cauchy stress in Pa of every particle, see `cauchy_stress`, computed in double precision.
+///
+/// @param F         deformation gradients, \paper{11}
+/// @param material  a law, or a callable of `OneParticle` that gives the law of each particle
+/// @param stress    where they are written, column-major
+/// Throws `InputError` for views of different sizes, `StateError` where a stress is not finite, with the particle.
+template <class T, int D, class Material, class R, Executor E = Serial>
+void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
+                     const E& execute = {}) {
+  require_view(F, "deformation gradients");
+  require_size(stress, F.size(), "stresses");
+  require_apart(stress, "stresses", F, "deformation gradients");
+  detail::evaluate_stress(
+      F, material, [](const auto& law, const Matrix<double, D>& gradient) { return cauchy_stress(law, gradient); },
+      [&](std::size_t i, const Matrix<double, D>& value) { stress.set(i, value); }, execute);
+  detail::require_finite_result(stress, F, "Cauchy stress");
+}
+
+/// Writes the first Piola-Kirchhoff stress P = dW/dF in Pa of every particle, force per reference area, \paper{7}.
+/// Parameters and errors are those of `cauchy_stresses`.
+template <class T, int D, class Material, class R, Executor E = Serial>
+void first_piola_kirchhoff_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
+                                    const E& execute = {}) {
+  require_view(F, "deformation gradients");
+  require_size(stress, F.size(), "stresses");
+  require_apart(stress, "stresses", F, "deformation gradients");
+  detail::evaluate_stress(
+      F, material,
+      [](const auto& law, const Matrix<double, D>& gradient) { return first_piola_kirchhoff(law, gradient); },
+      [&](std::size_t i, const Matrix<double, D>& value) { stress.set(i, value); }, execute);
+  detail::require_finite_result(stress, F, "first Piola-Kirchhoff stress");
+}
+
+/// Writes the von Mises stress in Pa of every particle, see `von_mises_stress`. Parameters and errors are those of
+/// `cauchy_stresses`; in two dimensions the law must also work in three.
+template <class T, int D, class Material, class R, Executor E = Serial>
+void von_mises_stresses(const MatrixView<T, D>& F, const Material& material, const ScalarView<R>& stress,
+                        const E& execute = {}) {
+  require_view(F, "deformation gradients");
+  require_size(stress, F.size(), "stresses");
+  require_apart(stress, "stresses", F, "deformation gradients");
+  detail::evaluate_stress(
+      F, material, [](const auto& law, const Matrix<double, D>& gradient) { return von_mises_stress(law, gradient); },
+      [&](std::size_t i, double value) { stress[i] = static_cast<R>(value); }, execute);
+  detail::require_finite_result(stress, F, "von Mises stress");
+}
+
+}  // namespace hmps::inline HMPS_ABI

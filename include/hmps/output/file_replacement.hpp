@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+
+namespace hmps::inline HMPS_ABI::detail {
+
+/// Replaces the file at `path` by `bytes`: written beside it as `path`.part, then renamed, so that a reader finds
+/// either the old file or the new one, whole, also where the program is killed on the way. Does not wait until the disk
+/// has it: a loss of power may cost the latest files. Throws `InputError` with the name and the reason; the old file is
+/// then still there.
+inline void replace_file(const std::filesystem::path& path, std::string_view bytes) {
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  std::error_code problem;
+  const auto fail = [&](const char* what, const std::string& reason) {
+    std::filesystem::remove(temporary, problem);
+    throw InputError(message("hmps: cannot ", what, " ", path.string(), ": ", reason,
+                             "; check that its folder exists, its permissions and the free space"));
+  };
+  errno = 0;
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) fail("write", errno != 0 ? std::generic_category().message(errno) : "the file system does not say why");
+  std::filesystem::rename(temporary, path, problem);
+  if (problem) fail("replace", problem.message());
+}
+
+}  // namespace hmps::inline HMPS_ABI::detail

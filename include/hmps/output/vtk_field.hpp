@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// Numbers of a VTK file under a name: one number, vector or tensor per particle. A copy; `vtk_field` makes it.
+struct VtkField {
+  std::string name;              ///< as ParaView shows it
+  int components = 1;            ///< 1, 3 or 9
+  std::string type = "Float32";  ///< of VTK: Float32, Float64, Int32 or UInt8
+  std::string bytes;             ///< the numbers, particle after particle, in the order of bytes of this machine
+
+  /// How many bytes a number takes.
+  [[nodiscard]] std::size_t width() const { return type == "Float64" ? 8 : type == "UInt8" ? 1 : 4; }
+  /// The number of particles.
+  [[nodiscard]] std::size_t size() const { return bytes.size() / (width() * static_cast<std::size_t>(components)); }
+};
+
+namespace detail {
+
+template <class T>
+constexpr const char* vtk_type = std::is_same_v<T, float>          ? "Float32"
+                                 : std::is_same_v<T, double>       ? "Float64"
+                                 : std::is_same_v<T, std::int32_t> ? "Int32"
+                                                                   : "UInt8";
+
+template <class T>
+[[nodiscard]] VtkField as_field(std::string name, int components, const std::vector<T>& values) {
+  static_assert(std::is_same_v<T, float> || std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> ||
+                    std::is_same_v<T, std::uint8_t>,
+                "hmps: VTK files hold float, double, std::int32_t or std::uint8_t");
+  VtkField field{std::move(name), components, vtk_type<T>, std::string(values.size() * sizeof(T), '\0')};
+  if (!values.empty()) std::memcpy(field.bytes.data(), values.data(), field.bytes.size());
+  return field;
+}
+
+/// `components` numbers per particle, number c of particle i by `at(i, c)`.
+template <class T, class At>
+[[nodiscard]] VtkField collect(std::string name, std::size_t size, int components, const At& at) {
+  std::vector<T> values;
+  values.reserve(size * static_cast<std::size_t>(components));
+  for (std::size_t i = 0; i < size; ++i)
+    for (int c = 0; c < components; ++c) values.push_back(static_cast<T>(at(i, c)));
+  return as_field(std::move(name), components, values);
+}
+
+}  // namespace detail
+
+/// A number per particle as a field called `name`: `vtk_field("J", scalars(j))`. Floating-point numbers are written as
+/// `Real`; single precision is enough to look at, `vtk_field<double>(...)` keeps all digits. Whole numbers, such as the
+/// organ of each particle, are written in 32 bits. Throws `InputError` for one that does not fit, and for a view of no
+/// memory.
+template <class Real = float, class T>
+[[nodiscard]] VtkField vtk_field(std::string name, const ScalarView<T>& view) {
+  require_view(view, name.c_str());
+  if constexpr (std::is_integral_v<std::remove_const_t<T>>) {
+    for (std::size_t i = 0; i < view.size(); ++i)
+      require(std::in_range<std::int32_t>(static_cast<std::int64_t>(view[i])) && std::in_range<std::int64_t>(+view[i]),
+              "hmps: the field ", name, " is ", +view[i], " at particle ", i,
+              ", which 32 bits do not hold; give it as a floating-point number");
+    return detail::collect<std::int32_t>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });
+  } else {
+    return detail::collect<Real>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });
+  }
+}
+
+/// A vector per particle as a field called `name`: `vtk_field("velocity", vectors(v))`. In two dimensions the third
+/// component is zero.
+template <class Real = float, class T, int D>
+[[nodiscard]] VtkField vtk_field(std::string name, const VectorView<T, D>& view) {
+  require_view(view, name.c_str());
+  return detail::collect<Real>(std::move(name), view.size(), 3, [&](std::size_t i, int c) -> Real {
+    return c < D ? static_cast<Real>(view(i, c)) : Real(0);
+  });
+}
+
+/// A tensor per particle as a field of nine numbers called `name`, row by row, as ParaView's Tensor Glyph and
+/// calculator take them: `vtk_field("Cauchy stress", matrices(sigma))`. In two dimensions the third row and column are
+/// zero.
+template <class Real = float, class T, int D>
+[[nodiscard]] VtkField vtk_field(std::string name, const MatrixView<T, D>& view) {
+  require_view(view, name.c_str());
+  return detail::collect<Real>(std::move(name), view.size(), 9, [&](std::size_t i, int c) -> Real {
+    const int row = c / 3, column = c % 3;
+    return row < D && column < D ? static_cast<Real>(view(i, row + D * column)) : Real(0);
+  });
+}
+
+}  // namespace hmps::inline HMPS_ABI

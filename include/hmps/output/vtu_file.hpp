@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/output/file_replacement.hpp"
+#include "hmps/output/vtk_field.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// What the values 0, 1, 2, ... of a field of whole numbers are called, such as organs: a list of words in the file,
+/// called after the field, "organ names".
+struct VtkNames {
+  std::string field;               ///< the field whose values are named
+  std::vector<std::string> names;  ///< of the values 0, 1, 2, ...
+};
+
+/// What a VTU file holds besides positions and fields.
+struct VtuSettings {
+  double time = 0;  ///< s, as ParaView shows it
+  /// Triangles between the points, as of a surface; without any each point is a cell of its own.
+  std::span<const std::array<Index, 3>> triangles = {};
+  std::vector<VtkNames> names = {};
+};
+
+namespace detail {
+
+/// Of this machine, as VTK calls it.
+inline constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+
+/// `text` as it may stand in XML between quotes. Bytes that XML cannot hold become question marks.
+[[nodiscard]] inline std::string xml(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  }
+  return result;
+}
+
+/// The shortest digits that read back as the same number, in any locale.
+[[nodiscard]] inline std::string shortest(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// Words as VTK keeps them: the numbers of their bytes, each word ended by a zero.
+[[nodiscard]] inline std::string vtk_words(const VtkNames& names) {
+  std::string text = "<Array type=\"String\" Name=\"" + xml(names.field) + " names\" NumberOfTuples=\"" +
+                     std::to_string(names.names.size()) + "\" format=\"ascii\">\n";
+  for (const std::string& name : names.names) {
+    for (const char c : name) text += std::to_string(static_cast<unsigned char>(c)) + ' ';
+    text += "0\n";
+  }
+  return text + "</Array>\n";
+}
+
+/// The arrays of a VTK file: what is said of them, and their bytes behind one another.
+struct VtkArrays {
+  std::string head, data;
+  void add(const VtkField& field) {
+    head += "<DataArray type=\"" + field.type + "\" Name=\"" + xml(field.name) + "\" NumberOfComponents=\"" +
+            std::to_string(field.components) + "\" format=\"appended\" offset=\"" + std::to_string(data.size()) +
+            "\"/>\n";
+    const auto length = static_cast<std::uint64_t>(field.bytes.size());
+    data.append(reinterpret_cast<const char*>(&length), sizeof(length));
+    data += field.bytes;
+  }
+};
+
+/// Adds the cells: the triangles, or one for each of `size` points.
+inline void add_cells(VtkArrays& arrays, std::size_t size, std::span<const std::array<Index, 3>> triangles) {
+  std::vector<std::int32_t> connectivity, offsets;
+  const std::size_t count = triangles.empty() ? size : triangles.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (triangles.empty()) connectivity.push_back(static_cast<std::int32_t>(k));
+    for (std::size_t c = 0; c < 3 && !triangles.empty(); ++c) {
+      require(triangles[k][c] < size, "hmps: triangle ", k, " of a VTU file names point ", triangles[k][c],
+              " but there are only ", size, "; give the points that the triangles belong to");
+      connectivity.push_back(static_cast<std::int32_t>(triangles[k][c]));
+    }
+    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+  }
+  arrays.add(as_field("connectivity", 1, connectivity));
+  arrays.add(as_field("offsets", 1, offsets));
+  // Of VTK: 1 is a vertex, 5 a triangle.
+  arrays.add(as_field("types", 1, std::vector<std::uint8_t>(count, triangles.empty() ? 1 : 5)));
+}
+
+inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const VtkField& field = fields[k];
+    require(!field.name.empty(), "hmps: field ", k, " of a VTU file has no name; ParaView needs one");
+    require(std::none_of(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(k),
+                         [&](const VtkField& other) { return other.name == field.name; }),
+            "hmps: two fields of a VTU file are called ", field.name, "; give each a name of its own");
+    require(field.bytes.size() == size * field.width() * static_cast<std::size_t>(field.components), "hmps: the field ",
+            field.name, " of a VTU file has ", field.size(), " particles but there are ", size,
+            " positions; give both of the same particles");
+  }
+}
+
+}  // namespace detail
+
+/// Points with fields as the bytes of a VTK file (.vtu, unstructured grid, version 1.0, appended raw data), which
+/// ParaView, VTK and meshio read. `positions` in m has three components. Throws `InputError` for fields of another
+/// size, without a name or with the same one, triangles that name points that are not there, names of no field of whole
+/// numbers, and a time that is not finite.
+[[nodiscard]] inline std::string vtu_text(const VtkField& positions, std::span<const VtkField> fields,
+                                          const VtuSettings& settings = {}) {
+  const std::size_t size = positions.size();
+  const std::size_t cells = settings.triangles.empty() ? size : settings.triangles.size();
+  require(positions.components == 3, "hmps: the positions of a VTU file have ", positions.components,
+          " components; give three");
+  require(std::max(size, 3 * settings.triangles.size()) <= std::numeric_limits<std::int32_t>::max(),
+          "hmps: a VTU file of ", size, " points and ", settings.triangles.size(),
+          " triangles needs indices of more than 32 bits; write it in parts");
+  require(detail::is_finite(settings.time), "hmps: the time of a VTU file is ", settings.time,
+          " s; give a finite number");
+  detail::require_fields(size, fields);
+  detail::VtkArrays arrays;
+  arrays.head =
+      std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"") +
+      detail::byte_order +
+      "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
+      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
+      detail::shortest(settings.time) + "</DataArray>\n";
+  for (const VtkNames& names : settings.names) {
+    require(std::any_of(fields.begin(), fields.end(),
+                        [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; }),
+            "hmps: a VTU file has names for the values of ", names.field,
+            ", which is no field of whole numbers in it; name a field that is written too");
+    arrays.head += detail::vtk_words(names);
+  }
+  arrays.head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(size) + "\" NumberOfCells=\"" +
+                 std::to_string(cells) + "\">\n<Points>\n";
+  arrays.add(positions);
+  arrays.head += "</Points>\n<Cells>\n";
+  detail::add_cells(arrays, size, settings.triangles);
+  arrays.head += "</Cells>\n<PointData>\n";
+  for (const VtkField& field : fields) arrays.add(field);
+  arrays.head += "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  return arrays.head + arrays.data + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+/// Writes particles, or a surface if the settings have triangles, to the VTK file `path` (.vtu):
+///
+///     write_vtu("body.vtu", x, {{vtk_field("velocity", v), vtk_field("organ", scalars(organ))}},
+///               {.time = t, .names = {{"organ", {"tongue", "palate"}}}});
+///
+/// Positions `x` in m, in two dimensions z is zero. The file is replaced whole: whoever reads it while it is written
+/// finds the old one. Throws `InputError` as `vtu_text` does, for a position that is not finite, and where the file
+/// cannot be written, with its name and the reason.
+template <class T, int D>
+void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
+               const VtuSettings& settings = {}) {
+  require_finite(x, "the position");
+  detail::replace_file(path, vtu_text(vtk_field("position", x), fields, settings));
+}
+
+/// The text of a ParaView collection (.pvd): the time in s and the file of each frame, the name relative to the
+/// collection's folder.
+[[nodiscard]] inline std::string pvd_text(std::span<const std::pair<double, std::string>> frames) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<Collection>\n";
+  for (const auto& [time, file] : frames)
+    text += "<DataSet timestep=\"" + detail::shortest(time) + "\" group=\"\" part=\"0\" file=\"" + detail::xml(file) +
+            "\"/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+/// Frames of a run, as ParaView shows them one after another: open `press.pvd` there.
+///
+///     VtuSeries frames("results/press.pvd");                       // makes the folder
+///     frames.add(t, x, {{vtk_field("velocity", v)}});              // writes results/press_00000.vtu, ...
+///
+/// The collection is whole at any moment, so that a run can be watched while it goes on. Frames of an earlier run with
+/// the same name are overwritten one by one.
+class VtuSeries {
+ public:
+  /// Begins the collection `path` (.pvd). Throws `InputError` where its folder cannot be made or written to, and for a
+  /// name that does not end in .pvd.
+  explicit VtuSeries(std::filesystem::path path) : path_(std::move(path)) {
+    require(path_.extension() == ".pvd", "hmps: ", path_.string(), " is to be a ParaView collection; end it in .pvd");
+    std::error_code problem;
+    if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), problem);
+    detail::replace_file(path_, pvd_text(frames_));
+  }
+
+  /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection.
+  template <class T, int D>
+  void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
+           VtuSettings settings = {}) {
+    settings.time = time;
+    const std::string number = std::to_string(frames_.size());
+    const std::string name =
+        path_.stem().string() + '_' + std::string(5 - std::min<std::size_t>(number.size(), 5), '0') + number + ".vtu";
+    write_vtu(path_.parent_path() / name, x, fields, settings);
+    frames_.emplace_back(time, name);
+    detail::replace_file(path_, pvd_text(frames_));
+  }
+
+  /// Time in s and file of every frame.
+  [[nodiscard]] const std::vector<std::pair<double, std::string>>& frames() const { return frames_; }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::pair<double, std::string>> frames_;
+};
+
+}  // namespace hmps::inline HMPS_ABI

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/search/fixed_radius.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// Points that a body carries along, such as the vertices of the surface from which it was filled, for smooth pictures
+/// and for loads on the surface: interpolation of the particles' positions by moving least squares of first order
+/// (Lancaster and Salkauskas 1981; Belytschko, Lu and Gu 1994), with coefficients of the reference configuration,
+///
+///     y = sum_k phi_k x_k,    phi_k = w_k (1, X_k - Y) M^-1 (1, 0),    M = sum_k w_k (1, X_k - Y) (x) (1, X_k - Y)
+///
+/// over the particles within a radius of the point's reference place Y, w = (1 - (|X - Y| / radius)^2)^2. The radius is
+/// two spacings, or more where particles are few: a spacing beyond the nearest one at least, and so large that the
+/// particles span space well. Since sum phi = 1 and sum phi X = Y, every affine motion of the particles is
+/// followed exactly, and where the motion has second derivatives of size c (1/m) the error is at most
+/// c / 2 sum |phi_k| |X_k - Y|^2. Points may lie outside of the particles, as surfaces do by about half a spacing.
+///
+///     const CarriedSurface carried(vectors(reference), vectors(mesh.vertices), l0);
+///     std::vector<Vector<double, 3>> vertices(mesh.vertices.size());
+///     carried(x, vectors(vertices));
+///     write_vtu("organ.vtu", vectors(vertices), {}, {.triangles = mesh.triangles});
+template <int D = 3>
+class CarriedSurface {
+  static_assert(D == 2 || D == 3, "hmps: points are carried in 2 or 3 dimensions");
+
+ public:
+  /// A particle's share in a point.
+  struct Share {
+    Index particle;
+    double weight;  ///< phi, of which some may be negative
+    double mean;    ///< w over the sum of w, for `mean`
+  };
+
+  /// @param reference  reference positions of the particles in m
+  /// @param points     places of the points in the reference configuration in m
+  /// @param spacing    l0 in m
+  /// @param belongs    `belongs(i)`: whether particle i is of the body that carries the points; all are by default
+  /// Throws `InputError` for a spacing that is not positive, positions that are not finite, no particles, and a point
+  /// that lies further than 8 spacings from particles that span space, with its place.
+  template <class T, class P, class Belongs = bool (*)(std::size_t), Executor E = Serial>
+  CarriedSurface(
+      const VectorView<T, D>& reference, const VectorView<P, D>& points, double spacing,
+      const Belongs& belongs = [](std::size_t) { return true; }, const E& execute = {})
+      : particles_(reference.size()) {
+    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a carried surface is ", spacing,
+            " m; give the particles' positive distance in the reference configuration");
+    require(reference.size() > 0, "hmps: a carried surface was given no particles");
+    require_finite(points, "the place");
+    const FixedRadiusSearch<T, D> search(reference);
+    std::vector<std::vector<Share>> shares(points.size());
+    execute(points.size(), [&](std::size_t p) {
+      shares[p] = shares_of(search, points[p].template cast<double>(), spacing, belongs, p);
+    });
+    for (const auto& of_point : shares) {
+      share_.insert(share_.end(), of_point.begin(), of_point.end());
+      offset_.push_back(share_.size());
+    }
+  }
+
+  /// The number of points.
+  [[nodiscard]] std::size_t size() const { return offset_.size() - 1; }
+  /// The shares of particles in point `p`, sorted by particle.
+  [[nodiscard]] std::span<const Share> shares(std::size_t p) const {
+    return std::span(share_).subspan(offset_[p], offset_[p + 1] - offset_[p]);
+  }
+
+  /// Writes the places in m of the points that go with the positions `x` of the particles. Throws `InputError` for
+  /// views of other sizes.
+  template <class X, class P, Executor E = Serial>
+  void operator()(const VectorView<X, D>& x, const VectorView<P, D>& places, const E& execute = {}) const {
+    require_size(x, particles_, "positions");
+    require_size(places, size(), "places");
+    execute(size(), [&](std::size_t p) {
+      Vector<double, D> place = Vector<double, D>::Zero();
+      for (const Share& share : shares(p))
+        for (int c = 0; c < D; ++c) place[c] += share.weight * static_cast<double>(x(share.particle, c));
+      for (int c = 0; c < D; ++c) places(p, c) = static_cast<P>(place[c]);
+    });
+  }
+
+  /// Writes to `values` what `quantity` of the particles is at the points, by the same coefficients: exact where it is
+  /// linear in space. Outside of the particles it is extrapolated and may pass the values of all of them, below zero
+  /// too: for a smooth picture of a stress see `mean`. Throws `InputError` for views of other sizes.
+  template <class Q, class P, Executor E = Serial>
+  void interpolate(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
+    combine(&Share::weight, quantity, values, execute);
+  }
+  /// Writes to `values` the mean of `quantity` over the particles around each point, weighted by w: never beyond the
+  /// values of the particles, and on a surface rather what there is about a spacing below it. Throws `InputError` for
+  /// views of other sizes.
+  template <class Q, class P, Executor E = Serial>
+  void mean(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
+    combine(&Share::mean, quantity, values, execute);
+  }
+
+ private:
+  template <class Q, class P, class E>
+  void combine(double Share::*factor, const ScalarView<Q>& quantity, const ScalarView<P>& values,
+               const E& execute) const {
+    require_size(quantity, particles_, "a quantity");
+    require_size(values, size(), "values");
+    execute(size(), [&](std::size_t p) {
+      double sum = 0;
+      for (const Share& share : shares(p)) sum += share.*factor * static_cast<double>(quantity[share.particle]);
+      values[p] = static_cast<P>(sum);
+    });
+  }
+
+  template <class T, class Belongs>
+  [[nodiscard]] static std::vector<Share> shares_of(const FixedRadiusSearch<T, D>& search,
+                                                    const Vector<double, D>& point, double spacing,
+                                                    const Belongs& belongs, std::size_t p) {
+    using S = typename VectorView<T, D>::Scalar;
+    std::vector<Index> found;
+    for (double radius = 2 * spacing; radius < 8.5 * spacing; radius += spacing / 2) {
+      search(point.template cast<S>(), static_cast<S>(radius), found);
+      std::erase_if(found, [&](Index k) { return !belongs(std::size_t{k}); });
+      std::vector<Share> shares;
+      if (solve(search.points(), point, spacing, radius, found, shares)) return shares;
+    }
+    throw InputError(message("hmps: point ", p, " of a carried surface, at (", point.transpose(),
+                             "), lies further than 8 spacings of ", spacing,
+                             " m from particles that span space; check that surface and particles are of one body in "
+                             "one unit, or give a smaller spacing: a wall of one layer carries no surface, nor does a "
+                             "part that remove_weak took away"));
+  }
+
+  /// The shares of the particles `found` within `radius`; false where the radius should be larger.
+  template <class T>
+  [[nodiscard]] static bool solve(const VectorView<T, D>& reference, const Vector<double, D>& point, double spacing,
+                                  double radius, const std::vector<Index>& found, std::vector<Share>& shares) {
+    using Moments = Eigen::Matrix<double, D + 1, D + 1>;
+    using Monomials = Eigen::Matrix<double, D + 1, 1>;
+    const auto monomials = [&](Index k) {
+      Monomials m;
+      m[0] = 1;
+      for (int c = 0; c < D; ++c) m[c + 1] = (static_cast<double>(reference(k, c)) - point[c]) / spacing;
+      return m;
+    };
+    Moments M = Moments::Zero();
+    double nearest = radius;
+    for (const Index k : found) {
+      const Monomials m = monomials(k);
+      const double distance = spacing * m.template tail<D>().norm();
+      nearest = std::min(nearest, distance);
+      shares.push_back({k, weight(distance / radius), 0});
+      M += shares.back().weight * m * m.transpose();
+    }
+    if (found.size() <= D || nearest + spacing > radius) return false;
+    // How well they span space: the least spread of the particles about their own middle, in spacings squared.
+    const Eigen::Matrix<double, D, 1> middle = M.template block<D, 1>(1, 0) / M(0, 0);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spread;
+    spread.computeDirect(M.template block<D, D>(1, 1) / M(0, 0) - middle * middle.transpose(), Eigen::EigenvaluesOnly);
+    if (spread.eigenvalues()[0] < least_spread) return false;
+    const Monomials factor = M.ldlt().solve(Monomials(Monomials::Unit(0)));
+    for (Share& share : shares) {
+      share.mean = share.weight / M(0, 0);
+      share.weight *= factor.dot(monomials(share.particle));
+    }
+    return true;
+  }
+  [[nodiscard]] static double weight(double s) {
+    const double w = 1 - std::min(s * s, 1.0);
+    return w * w;
+  }
+  /// Two layers of which one has a few per cent of the weight have 0.03.
+  static constexpr double least_spread = 0.03;
+
+  std::size_t particles_;
+  std::vector<std::size_t> offset_{0};
+  std::vector<Share> share_;
+};
+
+}  // namespace hmps::inline HMPS_ABI

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/particles/carried_surface.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
+#include "hmps/shapes/surface_patch.hpp"
+#include "hmps/shapes/triangle_tree.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// The particles that lie within `distance` (m) of the patch, sorted: those to be held, say, by `ControlRegion` or the
+/// `moves` of `relax`. One layer, as README.md advises, is within 0.99 spacings of a face along the lattice; of a face
+/// at an angle to it that takes one to two layers, of which `surface_layers(...).outermost` are one. Throws
+/// `InputError` where there is none, for a distance that is not positive, and for a broken surface.
+template <class T, class S, Executor E = Serial>
+[[nodiscard]] std::vector<Index> particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
+                                                double distance, const E& execute = {}) {
+  require(detail::is_finite(distance) && distance > 0, "hmps: particles within ", distance,
+          " m of a patch are asked for; give a positive distance, such as the spacing");
+  require_finite(points, "the position");
+  const TriangleTree tree(patch);
+  std::vector<char> is_near(points.size(), 0);
+  execute(points.size(),
+          [&](std::size_t i) { is_near[i] = tree.distance(points[i].template cast<double>()) <= distance ? 1 : 0; });
+  std::vector<Index> found;
+  for (std::size_t i = 0; i < is_near.size(); ++i)
+    if (is_near[i] != 0) found.push_back(static_cast<Index>(i));
+  require(
+      !found.empty(), "hmps: no particle lies within ", distance, " m of ", patch.source,
+      "; check that both are in metres, and that the body has particles there: a part thinner than a spacing or two "
+      "has none, or loses them to remove_weak; else give a larger distance");
+  return found;
+}
+
+/// A pressure on a patch of the surface of a body, as force densities on its particles. It follows the surface: it acts
+/// across each triangle as it lies now, on its present area.
+///
+/// The patch is refined to edges of a spacing and carried along (`CarriedSurface`, y = sum phi x). Each triangle with
+/// the area vector a gives -p a / 3 to each of its corners, and a corner hands its force on to the particles by the
+/// same phi, so that the work of the force on the particles is that of the pressure on the surface. Since sum phi = 1
+/// and sum phi x = y, force and torque are those of the pressure on the carried patch, to the rounding of the sums: the
+/// force is p times the area vector of the patch; on a whole closed surface force and torque are zero, and the power is
+/// -p dV/dt of the volume V in it. The patch itself lies where the body's surface is to the accuracy of
+/// `CarriedSurface`.
+///
+///     const PatchPressure pressure(vectors(reference), patch, l0);
+///     force(x, v, f);                            // internal forces, N/m3
+///     pressure(x, 2e3, l0 * l0 * l0, f);         // 2 kPa pressing on the patch; a negative one pulls
+class PatchPressure {
+ public:
+  /// @param reference  reference positions of the particles in m
+  /// @param patch      see `surface_patch`; a whole surface too
+  /// @param spacing    l0 in m
+  /// @param belongs    `belongs(i)`: whether particle i is of the body; all are by default
+  /// Throws as `CarriedSurface` and `refine` do.
+  template <class T, class S, class Belongs = bool (*)(std::size_t)>
+  PatchPressure(
+      const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch, double spacing,
+      const Belongs& belongs = [](std::size_t) { return true; })
+      : PatchPressure(reference, refine(patch, spacing), spacing, belongs, true) {}
+
+  /// Adds to `f` (N/m3) the force densities of `pressure` (Pa, positive where it presses on the body) at the positions
+  /// `x` in m, for particles of the `volume` in m3, a number or a `ScalarView`. Runs in order, so that the result does
+  /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite and a volume
+  /// that is not positive.
+  template <class X, PerParticle Vol, class F>
+  void operator()(const VectorView<X, 3>& x, double pressure, const Vol& volume, const VectorView<F, 3>& f) const {
+    require_size(f, x.size(), "force densities");
+    require_apart(f, "force densities", x, "positions");
+    require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure, " Pa; give a finite number");
+    require_positive(volume, x.size(), "volume", "m3");
+    const std::vector<V> corner = corners(x);
+    std::vector<V> force(corner.size(), V::Zero());
+    for (const auto& t : triangles_) {
+      const V third = area_vector(corner[t[0]], corner[t[1]], corner[t[2]]) * (-pressure / 3);
+      for (const Index k : t) force[k] += third;
+    }
+    for (std::size_t p = 0; p < force.size(); ++p)
+      for (const auto& share : carried_.shares(p))
+        f.add(share.particle, V(force[p] * (share.weight / static_cast<double>(at_particle(volume, share.particle)))));
+  }
+
+  /// The sum of the area vectors of the patch in m2 as it lies at the positions `x`: the force of a pressure p is -p
+  /// times it.
+  template <class X>
+  [[nodiscard]] Vector<double, 3> area_at(const VectorView<X, 3>& x) const {
+    const std::vector<V> corner = corners(x);
+    V sum = V::Zero();
+    for (const auto& t : triangles_) sum += area_vector(corner[t[0]], corner[t[1]], corner[t[2]]);
+    return sum;
+  }
+
+ private:
+  using V = Vector<double, 3>;
+
+  template <class T, class S, class Belongs>
+  PatchPressure(const VectorView<T, 3>& reference, const SurfaceMesh<S>& fine, double spacing, const Belongs& belongs,
+                bool)
+      : carried_(reference, vectors(fine.vertices), spacing, belongs), triangles_(fine.triangles) {}
+
+  template <class X>
+  [[nodiscard]] std::vector<V> corners(const VectorView<X, 3>& x) const {
+    std::vector<V> corner(carried_.size());
+    carried_(x, vectors(corner));
+    return corner;
+  }
+
+  CarriedSurface<3> carried_;
+  std::vector<std::array<Index, 3>> triangles_;
+};
+
+}  // namespace hmps::inline HMPS_ABI

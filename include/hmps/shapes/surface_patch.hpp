@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// The area vector of a triangle with corners a, b, c: its area in m2 along its normal, which points to where it is
+/// seen counter-clockwise.
+[[nodiscard]] inline Vector<double, 3> area_vector(const Vector<double, 3>& a, const Vector<double, 3>& b,
+                                                   const Vector<double, 3>& c) {
+  return (b - a).cross(c - a) / 2;
+}
+
+/// The area of a surface, or of a patch of one, in m2.
+template <class S>
+[[nodiscard]] double area(const SurfaceMesh<S>& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += area_vector(mesh.vertices[t[0]].template cast<double>(), mesh.vertices[t[1]].template cast<double>(),
+                       mesh.vertices[t[2]].template cast<double>())
+               .norm();
+  return sum;
+}
+
+/// A patch of a surface, to be held or loaded: the triangles for which `holds(centre, normal)`, with the middle of the
+/// triangle in m and its unit normal, outward. By place or direction, or within a shape:
+///
+///     const auto base = surface_patch(mesh, [](const auto& at, const auto& n) { return n[2] < -0.9; });
+///     const auto spot = surface_patch(mesh, [&](const auto& at, const auto& n) { return ball(at) < 0; });
+///
+/// Triangles are taken whole: where they are large beside the patch, `refine` the surface first. Triangles without area
+/// are left out. Throws `InputError` where no triangle is chosen, and for a broken surface.
+template <class S, class Holds>
+[[nodiscard]] SurfaceMesh<S> surface_patch(const SurfaceMesh<S>& mesh, const Holds& holds) {
+  detail::require_triangles(mesh);
+  SurfaceMesh<S> patch;
+  patch.source = "a patch of " + mesh.source;
+  constexpr Index none = static_cast<Index>(-1);
+  std::vector<Index> name(mesh.vertices.size(), none);
+  for (const auto& t : mesh.triangles) {
+    const Vector<double, 3> a = mesh.vertices[t[0]].template cast<double>();
+    const Vector<double, 3> b = mesh.vertices[t[1]].template cast<double>();
+    const Vector<double, 3> c = mesh.vertices[t[2]].template cast<double>();
+    const Vector<double, 3> across = area_vector(a, b, c);
+    if (!(across.norm() > 0)) continue;
+    const Vector<S, 3> centre = ((a + b + c) / 3).template cast<S>();
+    const Vector<S, 3> normal = (across / across.norm()).template cast<S>();
+    if (!holds(centre, normal)) continue;
+    std::array<Index, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (name[t[k]] == none) {
+        name[t[k]] = static_cast<Index>(patch.vertices.size());
+        patch.vertices.push_back(mesh.vertices[t[k]]);
+      }
+      corners[k] = name[t[k]];
+    }
+    patch.triangles.push_back(corners);
+  }
+  const Box<S, 3> box = bounds(mesh);
+  require(!patch.triangles.empty(), "hmps: none of ", mesh.triangles.size(), " triangles of ", mesh.source,
+          ", which reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+          ") m, is in the patch; check its place and direction, or refine the surface");
+  return patch;
+}
+
+/// The surface with triangles whose edges are at most `longest` (m) long: longer ones are halved until none is left.
+/// Neighbours share their new vertices, so that a closed surface stays closed; its shape does not change. Throws
+/// `InputError` for a length that is not positive, a broken surface, and where more than 20 million triangles would
+/// come out.
+template <class S>
+[[nodiscard]] SurfaceMesh<S> refine(SurfaceMesh<S> mesh, double longest) {
+  require(detail::is_finite(longest) && longest > 0, "hmps: a surface is to be refined to edges of ", longest,
+          " m; give a positive length");
+  detail::require_triangles(mesh);
+  constexpr double most = 2e7;
+  const double expected = area(mesh) / (longest * longest);
+  require(expected < most, "hmps: ", mesh.source, " refined to edges of ", longest, " m has more than ", expected,
+          " triangles; give a larger length, in metres");
+  const auto length = [&](Index a, Index b) {
+    return static_cast<double>((mesh.vertices[a] - mesh.vertices[b]).norm());
+  };
+  for (bool again = true; again;) {
+    again = false;
+    std::map<std::pair<Index, Index>, Index> middles;
+    const auto middle = [&](Index a, Index b) {
+      const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<Index>(mesh.vertices.size()));
+      if (is_new) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / S(2));
+      return at->second;
+    };
+    std::vector<std::array<Index, 3>> finer;
+    finer.reserve(mesh.triangles.size());
+    for (auto t : mesh.triangles) {
+      const auto is_long = [&](std::size_t k) { return length(t[k], t[(k + 1) % 3]) > longest; };
+      const int count = int{is_long(0)} + int{is_long(1)} + int{is_long(2)};
+      if (count == 0) {
+        finer.push_back(t);
+        continue;
+      }
+      again = true;
+      // So that the first edge is long, and of two long ones the third edge is not.
+      while (count == 1 ? !is_long(0) : count == 2 && is_long(2)) std::rotate(t.begin(), t.begin() + 1, t.end());
+      const auto [a, b, c] = t;
+      const Index ab = middle(a, b);
+      if (count == 1) {
+        finer.insert(finer.end(), {{a, ab, c}, {ab, b, c}});
+        continue;
+      }
+      const Index bc = middle(b, c);
+      finer.push_back({ab, b, bc});
+      if (count == 3) {
+        const Index ca = middle(c, a);
+        finer.insert(finer.end(), {{a, ab, ca}, {bc, c, ca}, {ab, bc, ca}});
+      } else if (length(a, bc) < length(ab, c)) {
+        finer.insert(finer.end(), {{a, ab, bc}, {a, bc, c}});
+      } else {
+        finer.insert(finer.end(), {{a, ab, c}, {ab, bc, c}});
+      }
+    }
+    require(static_cast<double>(finer.size()) < most, "hmps: ", mesh.source, " refined to edges of ", longest,
+            " m has more than ", most, " triangles; give a larger length, in metres");
+    mesh.triangles = std::move(finer);
+  }
+  return mesh;
+}
+
+}  // namespace hmps::inline HMPS_ABI

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/output/file_replacement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "folder.hpp"
+#include "hmps/core/text_file.hpp"
+
+namespace {
+
+using namespace hmps;
+
+TEST(FileReplacement, TheNewFileTakesThePlaceOfTheOld) {
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.bin";
+  detail::replace_file(path, std::string_view("first\0\n", 7));
+  EXPECT_EQ(detail::read_text(path.string()), std::string("first\0\n", 7));
+  detail::replace_file(path, "2");
+  EXPECT_EQ(detail::read_text(path.string()), "2");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
+  const hmps_test::TemporaryFolder folder;
+  const auto missing = folder.path() / "missing" / "a.bin";
+  try {
+    detail::replace_file(missing, "1");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(missing.string()), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+  }
+  // A folder that is not empty cannot be replaced by a file.
+  const auto taken = folder.path() / "taken";
+  std::filesystem::create_directories(taken / "inner");
+  EXPECT_THROW(detail::replace_file(taken, "1"), InputError);
+  EXPECT_TRUE(std::filesystem::is_directory(taken / "inner"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+}  // namespace

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/output/vtu_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+#include "folder.hpp"
+#include "hmps/core/text_file.hpp"
+
+namespace {
+
+using namespace hmps;
+
+struct Cloud {
+  std::vector<Vector<double, 3>> x{{0, 0.25, -1}, {1, 2, 3}, {-4, 5.5, 6}};
+  std::vector<double> j{1, 0.5, 1.25};
+  std::vector<int> organ{0, 1, 0};
+  std::vector<Matrix<double, 3>> stress{3, Matrix<double, 3>::Identity()};
+  std::vector<std::array<Index, 3>> triangles{{0, 1, 2}, {0, 2, 1}};
+
+  [[nodiscard]] std::vector<VtkField> fields() {
+    stress[1] << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+    return {vtk_field("velocity", vectors(x)), vtk_field<double>("J", scalars(j)), vtk_field("organ", scalars(organ)),
+            vtk_field("stress <&>", matrices(stress))};
+  }
+};
+
+/// The message of the error of `call`.
+template <class Call>
+std::string error_of(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(VtuFile, RefusesWhatDoesNotFit) {
+  Cloud cloud;
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.vtu";
+  const auto write = [&](const std::vector<VtkField>& fields, const VtuSettings& settings = {}) {
+    return error_of([&] { write_vtu(path, vectors(cloud.x), fields, settings); });
+  };
+  std::vector<double> two{1, 2};
+  EXPECT_NE(write({vtk_field("J", scalars(two))}).find("J of a VTU file has 2 particles but there are 3"),
+            std::string::npos);
+  EXPECT_NE(write({vtk_field("J", scalars(cloud.j)), vtk_field("J", scalars(cloud.j))}).find("two fields"),
+            std::string::npos);
+  EXPECT_NE(write({vtk_field("", scalars(cloud.j))}).find("no name"), std::string::npos);
+  EXPECT_NE(write({}, {.time = std::numeric_limits<double>::infinity()}).find("time"), std::string::npos);
+  EXPECT_NE(write({vtk_field("J", scalars(cloud.j))}, {.names = {{"J", {"a"}}}}).find("no field of whole numbers"),
+            std::string::npos);
+  cloud.triangles[1][2] = 3;
+  EXPECT_NE(write({}, {.triangles = cloud.triangles}).find("triangle 1"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  cloud.x[2][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(write({}).find("particle 2"), std::string::npos);
+  cloud.x[2][1] = 0;
+  const auto missing = (folder.path() / "missing" / "a.vtu").string();
+  EXPECT_NE(error_of([&] { write_vtu(missing, vectors(cloud.x)); }).find(missing), std::string::npos);
+}
+
+TEST(VtuFile, ASeriesListsItsFramesAsTheyCome) {
+  Cloud cloud;
+  const hmps_test::TemporaryFolder folder;
+  VtuSeries frames(folder.path() / "deep" / "er" / "run.pvd");
+  EXPECT_THROW(VtuSeries(folder.path() / "run.vtu"), InputError);
+  for (int i = 0; i < 3; ++i) {
+    frames.add(0.5 * i, vectors(cloud.x));
+    const std::string list = detail::read_text((folder.path() / "deep/er/run.pvd").string());
+    EXPECT_EQ(list, pvd_text(frames.frames()));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "deep/er" / frames.frames().back().second));
+  }
+  EXPECT_EQ(frames.frames()[2].second, "run_00002.vtu");
+  EXPECT_NE(pvd_text(frames.frames()).find("timestep=\"0.5\" group=\"\" part=\"0\" file=\"run_00001.vtu\""),
+            std::string::npos);
+}
+
+// VTK itself reads back what was written: read_vtu.py beside this file compares every value.
+TEST(VtuFile, VtkReadsItBack) {
+  const std::string python = "/usr/bin/python3 ";
+  if (std::system((python + "-c 'import vtk' 2>/dev/null").c_str()) != 0)
+    GTEST_SKIP() << "the Python package of VTK is not here: apt-get install --no-install-recommends python3-vtk9";
+  Cloud cloud;
+  const hmps_test::TemporaryFolder folder;
+  VtuSettings settings{.time = 0.125, .names = {{"organ", {"tongue", "palate & uvula"}}}};
+  write_vtu(folder.path() / "cloud.vtu", vectors(cloud.x), cloud.fields(), settings);
+  settings.triangles = cloud.triangles;
+  write_vtu(folder.path() / "surface.vtu", vectors(cloud.x), cloud.fields(), settings);
+  std::vector<Vector<float, 2>> none;
+  write_vtu(folder.path() / "empty.vtu", vectors(none));
+  const auto script = std::filesystem::path(__FILE__).parent_path() / "read_vtu.py";
+  EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
+}
+
+}  // namespace

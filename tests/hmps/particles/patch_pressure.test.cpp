@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/particles/patch_pressure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <vector>
+
+#include "hmps/particles/surface_lattice.hpp"
+#include "hmps/shapes/surfaces.hpp"
+
+namespace {
+
+using namespace hmps;
+using V = Vector<double, 3>;
+
+constexpr double l0 = 2e-3, particle = l0 * l0 * l0, pressure = 2e3;
+
+/// A brick along the lattice, or a ball, with the lattice inside.
+struct Body {
+  SurfaceMesh<double> mesh;
+  std::vector<V> x = fill_lattice(mesh, l0, V::Constant(l0 / 2)), f{x.size(), V::Zero()};
+
+  explicit Body(SurfaceMesh<double> surface) : mesh(std::move(surface)) {}
+  [[nodiscard]] V force() const {
+    V sum = V::Zero();
+    for (const V& density : f) sum += particle * density;
+    return sum;
+  }
+  [[nodiscard]] V torque() const {
+    V sum = V::Zero();
+    for (std::size_t i = 0; i < x.size(); ++i) sum += particle * x[i].cross(f[i]);
+    return sum;
+  }
+  void move(const Matrix<double, 3>& F, const V& shift) {
+    for (V& place : x) place = F * place + shift;
+  }
+};
+Body brick() { return Body(hmps_test::box_surface<double>(V(0, 0, 0), V(0.016, 0.012, 0.02))); }
+Body ball() { return Body(hmps_test::sphere_surface<double>(V(0.01, 0, 0), 0.011, 3)); }
+
+// A sum of a few thousand numbers of at most 10 p l0^2, each with a few roundings.
+constexpr double rounding = 1e-13 * pressure * 1e-3;
+
+TEST(PatchPressure, SumsToPressureTimesAreaThatFollowsTheBody) {
+  Body body = brick();
+  const auto top = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] > 0.5; });
+  const PatchPressure load(vectors(body.x), top, l0);
+  load(vectors(body.x), pressure, particle, vectors(body.f));
+  EXPECT_NEAR((body.force() - V(0, 0, -pressure * 0.016 * 0.012)).norm(), 0, rounding);
+  // About its middle it has no torque.
+  EXPECT_NEAR((body.torque() - V(0.008, 0.006, 0.02).cross(body.force())).norm(), 0, rounding);
+
+  // Stretched twice along x, then turned: twice the area, and across it.
+  const Matrix<double, 3> R = Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const Matrix<double, 3> stretch = V(2, 1, 0.5).asDiagonal();
+  body.move(R * stretch, V(1, 0, -1));
+  std::fill(body.f.begin(), body.f.end(), V::Zero());
+  load(vectors(body.x), pressure, particle, vectors(body.f));
+  EXPECT_NEAR((body.force() + pressure * 2 * 0.016 * 0.012 * R.col(2)).norm(), 0, rounding);
+  EXPECT_NEAR((load.area_at(vectors(body.x)) - 2 * 0.016 * 0.012 * R.col(2)).norm(), 0, 1e-13 * 1e-3);
+}
+
+TEST(PatchPressure, OnAClosedSurfaceHasNoForceNorTorque) {
+  for (Body body : {brick(), ball()}) {
+    const PatchPressure load(vectors(body.x), body.mesh, l0);
+    // Any motion, also one that is not affine.
+    for (V& place : body.x) place += 0.1 * V(place[1], place[2] * place[0] / l0, place[0] * place[0] / l0);
+    load(vectors(body.x), pressure, particle, vectors(body.f));
+    EXPECT_NEAR(body.force().norm(), 0, rounding);
+    EXPECT_NEAR(body.torque().norm(), 0, rounding);
+  }
+}
+
+TEST(PatchPressure, DoesTheWorkOfAPressureOnTheVolume) {
+  Body body = ball();
+  const PatchPressure load(vectors(body.x), body.mesh, l0);
+  load(vectors(body.x), pressure, particle, vectors(body.f));
+  Matrix<double, 3> rate;
+  rate << 0.3, 0.5, -0.2, 0.1, 0.4, 0.6, 0, -0.7, 0.5;  // velocity gradient in 1/s
+  double power = 0;
+  for (std::size_t i = 0; i < body.x.size(); ++i) power += particle * body.f[i].dot(rate * body.x[i]);
+  EXPECT_NEAR(power, -pressure * rate.trace() * volume(body.mesh), rounding);
+}
+
+TEST(PatchPressure, TakesParticlesOfTheirOwnVolumeAndAddsToWhatIsThere) {
+  Body body = brick();
+  const PatchPressure load(vectors(body.x), body.mesh, l0);
+  std::vector<double> volumes(body.x.size(), particle / 2);
+  std::vector<V> half(body.x.size(), V(0, 0, 1)), whole(body.x.size(), V::Zero());
+  load(vectors(body.x), pressure, scalars(volumes), vectors(half));
+  load(vectors(body.x), pressure, particle, vectors(whole));
+  for (std::size_t i = 0; i < half.size(); ++i)
+    EXPECT_NEAR((half[i] - V(0, 0, 1) - 2 * whole[i]).norm(), 0, 1e-12 * (1 + half[i].norm()));
+}
+
+TEST(PatchPressure, ParticlesNearAPatchAreThoseOfItsLayer) {
+  const Body body = brick();
+  const auto base = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] < -0.5; });
+  const auto held = particles_near(vectors(body.x), base, 0.99 * l0);
+  EXPECT_EQ(held.size(), 8u * 6u);
+  for (const Index i : held) EXPECT_NEAR(body.x[i][2], l0 / 2, 1e-9);
+  EXPECT_THROW((void)particles_near(vectors(body.x), base, 0.4 * l0), InputError);
+  EXPECT_THROW((void)particles_near(vectors(body.x), base, 0), InputError);
+}
+
+TEST(PatchPressure, RefusesWhatDoesNotFit) {
+  Body body = brick();
+  const PatchPressure load(vectors(body.x), body.mesh, l0);
+  std::vector<V> few(3);
+  EXPECT_THROW(load(vectors(body.x), pressure, particle, vectors(few)), InputError);
+  EXPECT_THROW(load(vectors(few), pressure, particle, vectors(few)), InputError);
+  EXPECT_THROW(load(vectors(body.x), pressure, 0.0, vectors(body.f)), InputError);
+  EXPECT_THROW(load(vectors(body.x), std::numeric_limits<double>::infinity(), particle, vectors(body.f)), InputError);
+}
+
+}  // namespace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/shapes/surface_patch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hmps/shapes/surfaces.hpp"
+
+namespace {
+
+using namespace hmps;
+using V = Vector<double, 3>;
+
+SurfaceMesh<double> brick() { return hmps_test::box_surface<double>(V(0, 0, 0), V(3, 2, 1)); }
+
+double longest_edge(const SurfaceMesh<double>& mesh) {
+  double longest = 0;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm());
+  return longest;
+}
+
+TEST(SurfacePatch, TakesTrianglesByDirectionOrPlace) {
+  const auto mesh = brick();
+  EXPECT_DOUBLE_EQ(area(mesh), 22);
+  const auto top = surface_patch(mesh, [](const V&, const V& normal) { return normal[2] > 0.5; });
+  EXPECT_EQ(top.triangles.size(), 2u);
+  EXPECT_EQ(top.vertices.size(), 4u);
+  EXPECT_DOUBLE_EQ(area(top), 6);
+  for (const V& v : top.vertices) EXPECT_EQ(v[2], 1);
+  const auto& t = top.triangles[0];
+  EXPECT_GT(area_vector(top.vertices[t[0]], top.vertices[t[1]], top.vertices[t[2]])[2], 0);  // still seen from outside
+  const auto left = surface_patch(mesh, [](const V& centre, const V&) { return centre[0] < 1e-9; });
+  EXPECT_DOUBLE_EQ(area(left), 2);
+  EXPECT_THROW((void)surface_patch(mesh, [](const V& centre, const V&) { return centre[0] > 4; }), InputError);
+  SurfaceMesh<double> broken = mesh;
+  broken.triangles[0][0] = 99;
+  EXPECT_THROW((void)surface_patch(broken, [](const V&, const V&) { return true; }), InputError);
+}
+
+TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
+  for (const double longest : {1.5, 0.7, 0.31}) {
+    const auto fine = refine(brick(), longest);
+    EXPECT_LE(longest_edge(fine), longest);
+    EXPECT_NO_THROW(require_closed(fine));
+    EXPECT_NEAR(area(fine), 22, 1e-12);
+    EXPECT_NEAR(volume(fine), 6, 1e-12);
+    // Edges are halved, so that they do not become much shorter than asked for either.
+    EXPECT_LT(static_cast<double>(fine.triangles.size()), 16 * 22 / (longest * longest));
+  }
+  const auto same = refine(brick(), 10);
+  EXPECT_EQ(same.triangles, brick().triangles);
+  // Of uneven triangles too, with one, two and three long edges.
+  const auto torus = refine(hmps_test::torus_surface<double>(3, 1, 40, 5), 0.4);
+  EXPECT_LE(longest_edge(torus), 0.4);
+  EXPECT_NO_THROW(require_closed(torus));
+  EXPECT_NEAR(volume(torus), volume(hmps_test::torus_surface<double>(3, 1, 40, 5)), 1e-10);
+}
+
+TEST(SurfacePatch, RefusesLengthsThatCannotBe) {
+  for (const double longest : {0.0, -1.0, 1e-4}) EXPECT_THROW((void)refine(brick(), longest), InputError) << longest;
+}
+
+}  // namespace
