@@ -40,7 +40,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return text;
 }
 
-/// A piece of a file for a message: what cannot be printed as \xNN, cut after 40 characters.
+/// A piece of a file for a message: what cannot be printed by its hexadecimal code, cut after 40 characters.
 [[nodiscard]] inline std::string printable(std::string_view text) {
   constexpr std::size_t most = 40;
   constexpr std::string_view digits = "0123456789abcdef";
