@@ -33,7 +33,7 @@ struct Elastic {
 
   /// Fails, with the name of the law, where it does not serve the scalar and the dimension of the bonds.
   template <class K, int D>
-  static consteval bool serves() {
+  static constexpr bool serves() {
     using Own = std::remove_cvref_t<decltype(detail::value_at(std::declval<const Law&>(),
                                                               std::declval<const BlockOfParticles<K, D>&>()))>;
     return detail::RequireLaw<Own, Lanes<K>, D>::value;
