@@ -45,7 +45,7 @@ class Gather {
     hmps::Lanes<T> sum[4];
     for (auto& part : sum) part = hmps::Lanes<T>(0);
     for (std::size_t i = 0; i < 2048 / sizeof(T); i += width)
-      for (std::size_t k = 0; k < 4; ++k) sum[k] += hmps::load(values_.data() + i + k + 1);
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += hmps::detail::load(values_.data() + i + k + 1);
     T total = 0;
     for (const auto& part : sum)
       for (std::size_t l = 0; l < width; ++l) total += part.lane[l];

@@ -13,20 +13,17 @@ int main() {
   // The bar of the first program: 60 x 20 x 20 mm, and two layers more at x < 0, which the clamp holds.
   const hmps::Box<double, 3> bar{Vector(-2 * l0, 0, 0), Vector(0.06, 0.02, 0.02)};
   const std::vector<Vector> reference = hmps::fill_lattice(bar, bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
+  const hmps::ParticleSet clamped(reference.size(), [&](std::size_t i) { return reference[i][0] < 0; });
   std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity;
 
   const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference), {.spacing = l0});
   const auto tissue = hmps::MooneyRivlin<>::from_young(20e3, 1e6);
-  auto internal = hmps::internal_force(bonds, hmps::elastic(tissue),
-                                       hmps::artificial(hmps::shear_wave_modulus(tissue.shear_modulus())));
-  const auto force = [&](const auto& x, const auto& v, const auto& f) {
-    internal(x, v, f);
-    for (std::size_t i = 0; i < f.size(); ++i) f(i, 2) -= rho * g;
-  };
+  auto force = hmps::internal_force(bonds, hmps::elastic(tissue),
+                                    hmps::artificial(hmps::shear_wave_modulus(tissue.shear_modulus())),
+                                    hmps::gravity(rho, Vector(0, 0, -g)));
   const double weight = rho * g * 0.06 * 0.02 * 0.02;
-  const auto found =
-      hmps::relax(force, hmps::vectors(position), hmps::vectors(velocity), hmps::vectors(load), rho,
-                  {.spacing = l0, .load = weight, .moves = [&](std::size_t i) { return reference[i][0] > 0; }});
+  const auto found = hmps::relax(force, hmps::vectors(position), hmps::vectors(velocity), hmps::vectors(load), rho,
+                                 {.spacing = l0, .load = weight, .moves = ~clamped});
   // How far the middle of the free end has sunk (m): the end lies half a spacing beyond its last particles.
   const auto fall = [&] {
     std::size_t last = 0, before = 0;

@@ -12,6 +12,7 @@ int main() {
   // 60 x 20 x 20 mm, and two layers more at x < 0, which the clamp holds.
   const hmps::Box<double, 3> bar{Vector(-2 * l0, 0, 0), Vector(0.06, 0.02, 0.02)};
   const std::vector<Vector> reference = hmps::fill_lattice(bar, bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
+  const hmps::ParticleSet clamped(reference.size(), [&](std::size_t i) { return reference[i][0] < 0; });
   std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity;
   // How far the middle of the free end has sunk (m): the end lies half a spacing beyond its last particles.
   const auto fall = [&] {
@@ -26,14 +27,13 @@ int main() {
 
   const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference), {.spacing = l0});
   const auto tissue = hmps::MooneyRivlin<>::from_young(20e3, 1e6);  // Young's modulus and D1 (Pa)
-  auto force = hmps::internal_force(bonds, hmps::elastic(tissue), hmps::artificial(10e3), hmps::viscous(rho, 0.02));
+  auto force = hmps::internal_force(bonds, hmps::elastic(tissue), hmps::artificial(10e3), hmps::viscous(rho, 0.02),
+                                    hmps::gravity(rho, Vector(0, 0, -9.81)));
 
   for (int step = 0; step <= 6000; ++step) {
     force(x, v, f);  // N/m3
-    for (Vector& density : load) density[2] -= rho * 9.81;
     hmps::kick(v, f, rho, dt);
-    for (std::size_t i = 0; i < reference.size(); ++i)
-      if (reference[i][0] < 0) velocity[i].setZero();
+    hmps::hold(v, clamped);
     hmps::drift(x, v, dt);
     if (step % 1000 == 0)
       std::printf("t = %.2f s: the middle of the end has sunk by %5.2f mm\n", step * dt, 1e3 * fall());

@@ -37,8 +37,9 @@ int main() {
   //! [composition]
   const auto same_body = [&](std::size_t i, std::size_t j) { return (i < first) == (j < first); };
   const hmps::LatticeBonds<double, 3> bonds(X, {.spacing = l0}, same_body);
-  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(20e3, 1e6)),
-                                    hmps::artificial(10e3), hmps::viscous(rho, 2e-3), hmps::record(F));
+  auto force =
+      hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(20e3, 1e6)), hmps::artificial(10e3),
+                           hmps::viscous(rho, 2e-3), hmps::gravity(rho, Vector(0, 0, -g)), hmps::record(F));
 
   hmps::MetaballContact<double, 3, hmps::SmoothMetaball> contact({.spacing = l0, .density = rho, .friction = mu});
   const auto held = [](hmps::Index) { return true; };
@@ -49,9 +50,8 @@ int main() {
   const hmps::Keyframes<3> path{{.time = 0, .value = Vector::Zero()}, {.time = 0.1, .value = Vector(0.04, 0, 0)}};
   const hmps::ControlRegion pulled(all_of_plate, X, hmps::Translation<3>{path});
 
-  const auto advance = [&](double t) {                   // from t - dt to t
-    force(x, v, f);                                      // what holds the bodies together, N/m3
-    for (Vector& density : load) density[2] -= rho * g;  // their weight
+  const auto advance = [&](double t) {  // from t - dt to t
+    force(x, v, f);                     // what holds the bodies together and their weight, N/m3
     hmps::kick(v, f, rho, dt);
     pulled.prescribe(t, dt, x, v);  // forced displacement, which contact has to see
     for (Vector& density : load) density.setZero();

@@ -74,7 +74,7 @@ Ending run(Body<S>& body, Force& force, double rho, double dt, double duration, 
     hmps::kick(body.v(), body.f(), rho, dt);
     ending.time = static_cast<double>(step) * dt;
     prescribe(ending.time);
-    hmps::drift(body.x(), body.v(), dt, hmps::vectors(body.carry));
+    hmps::drift(body.x(), body.v(), hmps::vectors(body.carry), dt);
     if (step % 5 != 0 && step != steps) continue;
     const hmps::StateLimits limits{.speed_limit = speed_limit};
     const auto fault = may_invert ? hmps::find_fault(body.x(), body.v(), limits)

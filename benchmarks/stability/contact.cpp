@@ -91,7 +91,7 @@ class Meeting {
     contacts_ += report.contacts;
     hmps::kick(v, f, rho, dt);
     hold();
-    hmps::drift(x, v, dt, hmps::vectors(body_.carry));
+    hmps::drift(x, v, hmps::vectors(body_.carry), dt);
   }
 
   /// Kinetic, strain and artificial energy in J.

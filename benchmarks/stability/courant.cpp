@@ -159,7 +159,7 @@ bool alternates(Tissue<S>& scene, double dt) {
     }
     if (step % every == 0) before = body.velocity;
     hmps::kick(body.v(), body.f(), density, dt);
-    hmps::drift(body.x(), body.v(), dt, hmps::vectors(body.carry));
+    hmps::drift(body.x(), body.v(), hmps::vectors(body.carry), dt);
     if (step % every != 0) continue;
     double fastest = 0, product = 0, squares = 0;
     for (std::size_t i = 0; i < body.size(); ++i) {

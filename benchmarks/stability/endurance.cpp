@@ -68,7 +68,7 @@ Drift endure(long steps, double rate, bool compensated) {
     }
     hmps::kick(v, f, density, dt);
     if (compensated)
-      hmps::drift(x, v, dt, hmps::vectors(carry));
+      hmps::drift(x, v, hmps::vectors(carry), dt);
     else
       hmps::drift(x, v, dt);
   }

@@ -77,7 +77,7 @@ Outcome vibrate(const Settings& settings, End held) {
   };
   const auto drift = [&] {
     if constexpr (std::is_same_v<S, float>)
-      hmps::drift(x, v, dt, c);
+      hmps::drift(x, v, c, dt);
     else
       hmps::drift(x, v, dt);
   };

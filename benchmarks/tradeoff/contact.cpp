@@ -117,7 +117,7 @@ Slide slide(const Settings& settings, double angle, Meter& meter) {
       drive(t);
     }
     if constexpr (std::is_same_v<S, float>)
-      hmps::drift(block(x), block(v), dt, block(hmps::vectors(carry)));
+      hmps::drift(block(x), block(v), block(hmps::vectors(carry)), dt);
     else
       hmps::drift(block(x), block(v), dt);
     meter.stop();

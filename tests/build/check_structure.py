@@ -15,7 +15,7 @@ LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 # What is longer today, and by how much at most: to be divided, not to be added to.
-LONGER = {"hmps/lanes/lanes.hpp": 366, "hmps/force/internal_force.hpp": 346}
+LONGER = {"hmps/lanes/lanes.hpp": 355}
 LONGER_FUNCTIONS = {}
 
 INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)

@@ -19,7 +19,7 @@ void euler(benchmark::State& run, const Box& box, bool compensated, const Execut
   for (auto _ : run) {
     hmps::kick(v, f, density, time_step, execute);
     if (compensated)
-      hmps::drift(x, v, time_step, carry, execute);
+      hmps::drift(x, v, carry, time_step, execute);
     else
       hmps::drift(x, v, time_step, execute);
   }

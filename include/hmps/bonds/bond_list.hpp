@@ -11,6 +11,7 @@
 
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/cloud_order.hpp"
+#include "hmps/bonds/own_bonds.hpp"
 #include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
@@ -37,7 +38,7 @@ class BondList : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
+  using Slots = detail::SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
 
   /// Bonds all pairs of `reference` (m) no further apart than the effective radius for which
   /// `bonded(i, j)` holds, which must not depend on the order of i and j. Throws `InputError` for
@@ -54,36 +55,28 @@ class BondList : public Blocks<K, D> {
     const FixedRadiusSearch<T, D> search(reference);
     detail::require_plausible_spacing(search, settings, reach);
     const NeighbourList list = find_neighbours(search, reach);
-    places_ = detail::Places<K, D>(*this, static_cast<double>(reach));
-    groups_.reserve(this->block_count() + 1);
-    groups_.push_back({});
-    ShapeTensor<D> fullest;
-    std::array<std::vector<Bond>, 2> halves;
-    for (std::size_t block = 0; block < this->block_count(); ++block) {
-      for (auto& half : halves) half.clear();
-      for (std::size_t l = 0; l < width; ++l) {
-        const std::size_t slot = block * width + l;
-        const Index i = this->particle(slot);
-        if (i == Base::none) break;
-        ShapeTensor<D> shape;
-        for (const Index j : list[i]) {
-          if (!bonded(std::size_t{i}, std::size_t{j})) continue;
-          const Vector<double, D> r0 = this->reference(j) - this->reference(i);
-          const double w = weight(std::min(r0.norm(), radius), radius);
-          if (!(w > 0)) continue;
-          halves[l / half_width].push_back({first_of(this->slot(j), l), static_cast<std::uint32_t>(l), K(w)});
-          shape.add(r0, w);
-        }
-        this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
-        if (shape.weight > fullest.weight) fullest = shape;
+    keep_bonds(static_cast<double>(reach), [&](Index i, const auto& keep) {
+      for (const Index j : list[i]) {
+        if (!bonded(std::size_t{i}, std::size_t{j})) continue;
+        const Vector<double, D> r0 = this->reference(j) - this->reference(i);
+        const double w = weight(std::min(r0.norm(), radius), radius);
+        if (w > 0) keep(j, r0, w);
       }
-      add_rows(halves);
-    }
-    if (this->size() > 0) this->keep_standard(fullest.weight, fullest.A.trace() / fullest.weight);
-    weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // nothing is asked for beyond the end
-    weights_.shrink_to_fit();
-    starts_.shrink_to_fit();
+    });
   }
+
+  /// Bonds of the program's own: `neighbours` says which, as `BondNeighbours` describes, and `weights` is a number for
+  /// all, a number for each in the shape of `neighbours`, or a callable `w(i, j)`:
+  ///
+  ///     hmps::BondList<double, 3> bonds(X, pairs, weights);
+  ///
+  /// The order in which bonds are given does not matter. Throws `InputError`, naming the particles, for an index out of
+  /// range, a particle bonded to itself or to one at the same place, a bond that is there twice or from one end only, a
+  /// weight that is not positive and finite or differs between the ends, and neighbourhoods that do not span space.
+  template <class T, BondNeighbours N, class W>
+  requires(!std::convertible_to<const N&, BondSettings>)
+      BondList(const VectorView<T, D>& reference, const N& neighbours, const W& weights)
+      : BondList(reference, detail::OwnBonds::make<K>(reference.size(), neighbours, weights)) {}
 
   /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
   /// to `i` (m) and weight.
@@ -131,11 +124,11 @@ class BondList : public Blocks<K, D> {
         if constexpr (split)
           r0_[c] = bonds.places_.offset(detail::load_halves(places + first_, places + second_), own[c]);
         else
-          r0_[c] = bonds.places_.offset(load(places + first_), own[c]);
+          r0_[c] = bonds.places_.offset(detail::load(places + first_), own[c]);
       }
     }
     template <std::size_t N>
-    [[nodiscard]] HMPS_INLINE auto gather(const SlotArrays<K, N>& slots) const {
+    [[nodiscard]] HMPS_INLINE auto gather(const detail::SlotArrays<K, N>& slots) const {
       if constexpr (split)
         return slots.run(first_, second_);
       else
@@ -156,7 +149,7 @@ class BondList : public Blocks<K, D> {
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
     Lanes<K> own[std::size_t{D}];
-    for (int c = 0; c < D; ++c) own[c] = load(places_.slots(*this, c) + block * width);
+    for (int c = 0; c < D; ++c) own[c] = detail::load(places_.slots(*this, c) + block * width);
     const Group &group = groups_[block], &next = groups_[block + 1];
     const Lanes<K>* weights = weights_.data() + group.row;
     const Lanes<K>* const split = weights_.data() + group.split;
@@ -174,6 +167,45 @@ class BondList : public Blocks<K, D> {
 
  private:
   static constexpr std::size_t half_width = width / 2;
+
+  template <class T>
+  BondList(const VectorView<T, D>& reference, const detail::OwnBonds& own)
+      : Base(reference, checked_order(reference, {.spacing = own.spacing(reference)})) {
+    keep_bonds(own.longest(reference), [&](Index i, const auto& keep) {
+      for (const auto& bond : own[i])
+        keep(bond.neighbour, this->reference(bond.neighbour) - this->reference(i), bond.weight);
+    });
+  }
+
+  /// Keeps the bonds that `visit(i, keep)` names by `keep(j, r0, w)`, none of them longer than `reach` (m).
+  template <class Visit>
+  void keep_bonds(double reach, Visit&& visit) {
+    places_ = detail::Places<K, D>(*this, reach);
+    groups_.reserve(this->block_count() + 1);
+    groups_.push_back({});
+    ShapeTensor<D> fullest;
+    std::array<std::vector<Bond>, 2> halves;
+    for (std::size_t block = 0; block < this->block_count(); ++block) {
+      for (auto& half : halves) half.clear();
+      for (std::size_t l = 0; l < width; ++l) {
+        const Index i = this->particle(block * width + l);
+        if (i == Base::none) break;
+        ShapeTensor<D> shape;
+        visit(i, [&](Index j, const Vector<double, D>& r0, double w) {
+          halves[l / half_width].push_back({first_of(this->slot(j), l), static_cast<std::uint32_t>(l), K(w)});
+          shape.add(r0, w);
+        });
+        this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
+        if (shape.weight > fullest.weight) fullest = shape;
+      }
+      add_rows(halves);
+    }
+    if (this->size() > 0) this->keep_standard(fullest.weight, fullest.A.trace() / fullest.weight);
+    weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // nothing is asked for beyond the end
+    weights_.shrink_to_fit();
+    starts_.shrink_to_fit();
+  }
+
   /// A bond of one lane: its neighbour is slot `first + lane`.
   struct Bond {
     std::int32_t first;

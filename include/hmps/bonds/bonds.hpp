@@ -6,18 +6,66 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/lanes/lanes.hpp"
 
 namespace hmps::inline HMPS_ABI {
+
+namespace detail {
+struct AnyVisit {
+  template <class... Arguments>
+  void operator()(const Arguments&...) const {}
+};
+
+/// One bond of each lane of a block: what the sweeps ask of a row. The compiler knows the types of the rows only when
+/// it compiles a sweep, so that `Bonds` cannot ask.
+template <class Row, class Slots, class K>
+concept BondRow = requires(const Row& row, const Slots& slots) {
+  { row.gather(slots)[std::size_t{0}] } -> std::convertible_to<Lanes<K>>;
+  { row.offset(0) } -> std::convertible_to<Lanes<K>>;
+  { row.along(0) } -> std::convertible_to<bool>;
+  { row.weight() } -> std::convertible_to<Lanes<K>>;
+  { Row::skips } -> std::convertible_to<bool>;
+};
+
+/// Fails where `Row` is no row of bonds.
+template <class Row, class B>
+struct RequireRow {
+  static_assert(
+      BondRow<Row, typename B::template Slots<1>, typename B::Scalar>,
+      "hmps: a row of bonds needs gather(slots), offset(c), along(c), weight(), const, and the constant skips; "
+      "see Bonds");
+  static constexpr bool value = true;
+};
+}  // namespace detail
 
 /// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows, of one type or
 /// of several, with `row.gather(slots)` (from `Slots<N>`, what `[c]` gives component c of for the neighbour in each
 /// lane), `row.offset(c)` (component c of r0),
 /// `row.along(c)` (false where that is zero for all lanes and may be skipped), the constant `skips` (whether it ever
-/// is) and `row.weight()` (w, zero in lanes without this bond). Satisfied by `BondList` and `LatticeBonds`.
+/// is) and `row.weight()` (w, zero in lanes without this bond). `for_each_bond(i, visit)` calls `visit(j, r0, w)` for
+/// the bonds of particle i. Satisfied by `BondList` and `LatticeBonds`.
 template <class B>
-concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> && requires(const B& bonds) {
-  typename B::template Slots<1>;
-  bonds.for_each_row(std::size_t{0}, [](const auto&) {});
+concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &&
+    requires(const B& bonds, typename B::template Slots<1>& slots, const typename B::template Slots<1>& kept,
+             const Lanes<typename B::Scalar>& lanes) {
+  bonds.for_each_row(std::size_t{0}, detail::AnyVisit{});
+  bonds.for_each_bond(std::size_t{0}, detail::AnyVisit{});
+  { bonds.last_slot(std::size_t{0}) } -> std::convertible_to<std::size_t>;
+  typename B::template Slots<std::size_t{B::dimension}>;
+  slots(std::size_t{0}, std::size_t{0}) = typename B::Scalar{};
+  slots.keep(std::size_t{0}, std::size_t{0}, lanes);
+  { kept.lanes(std::size_t{0}, std::size_t{0}) } -> std::convertible_to<Lanes<typename B::Scalar>>;
+  { kept.bytes() } -> std::convertible_to<std::size_t>;
 };
+
+namespace detail {
+/// Fails where `B` is none, with its name in the first line of the message.
+template <class B>
+struct RequireBonds {
+  static_assert(Bonds<B>,
+                "hmps: bonds need to be derived from Blocks<K, D> and to have Slots<N>, for_each_row(block, visit) and "
+                "for_each_bond(i, visit), const; see Bonds");
+};
+}  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

@@ -43,7 +43,7 @@ class LatticeBonds : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
+  using Slots = detail::SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
 
   /// Bonds all pairs of `reference` (m, any order, on one lattice) no further apart than the
   /// effective radius for which `bonded(i, j)` holds. Throws `InputError` for particles off the
@@ -90,7 +90,7 @@ class LatticeBonds : public Blocks<K, D> {
     static constexpr bool skips = true;
     [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
     template <std::size_t N>
-    [[nodiscard]] HMPS_INLINE auto gather(const SlotArrays<K, N>& slots) const {
+    [[nodiscard]] HMPS_INLINE auto gather(const detail::SlotArrays<K, N>& slots) const {
       return slots.run(first);
     }
     [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
@@ -118,7 +118,7 @@ class LatticeBonds : public Blocks<K, D> {
     const Run* const end = runs_.data() + first_run_[group + 1];
     for (const Run* run = runs_.data() + first_run_[group]; run != end; ++run) {
       const Offset& offset = offset_[run->offset];
-      visit(Row<Place + 1>{offset.r0, spread(run->lanes, offset.w), run->first});
+      visit(Row<Place + 1>{offset.r0, detail::spread(run->lanes, offset.w), run->first});
     }
   }
 

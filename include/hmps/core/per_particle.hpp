@@ -7,7 +7,9 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -19,19 +21,59 @@ template <class T>
 struct IsScalarView<ScalarView<T>> : std::true_type {};
 }  // namespace detail
 
-/// A quantity, such as density or volume, that is one number for all particles or a `ScalarView` with one per particle.
+/// One particle as a callable sees it outside the sweeps: `at(view)` is a parameter of the particle. With it
+/// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` serves force and energy alike.
+struct OneParticle {
+  std::size_t index;
+
+  /// A parameter of the particle.
+  template <class P>
+  [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
+    return static_cast<double>(parameter[index]);
+  }
+  /// A parameter of the particle's body: `table[body[i]]`.
+  template <class P, class B>
+  [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
+    return static_cast<double>(table[static_cast<std::size_t>(body[index])]);
+  }
+};
+
+/// A quantity such as density, volume or viscosity: a number that all particles share, a `ScalarView` with one for
+/// each, or a callable that computes it from parameters, `[&](const auto& at) { return factor * at(density); }`.
 template <class Q>
-concept PerParticle = std::is_arithmetic_v<Q> || detail::IsScalarView<Q>::value;
+concept PerParticle = std::is_arithmetic_v<Q> || detail::IsScalarView<Q>::value || requires(const Q& quantity) {
+  { quantity(OneParticle{}) } -> std::convertible_to<double>;
+};
+
+namespace detail {
+
+/// What `quantity` is for `at`, one particle or a block of them: itself, unless it is a view or a callable. The one
+/// place where numbers, views and callables meet.
+template <class Q, class At>
+[[nodiscard]] HMPS_INLINE decltype(auto) value_at(const Q& quantity, const At& at) {
+  if constexpr (IsScalarView<Q>::value)
+    return at(quantity);
+  else if constexpr (std::invocable<const Q&, const At&>)
+    return quantity(at);
+  else
+    return quantity;
+}
+
+/// Throws `InputError` if `quantity`, called `name`, is a view of another number of particles than `size`.
+template <class Q>
+void require_quantity(const Q& quantity, std::size_t size, const char* name) {
+  if constexpr (IsScalarView<Q>::value) require_size(quantity, size, name);
+}
+
+}  // namespace detail
 
 /// The value of `quantity` at particle `i`.
 template <PerParticle Q>
 [[nodiscard]] auto at_particle(const Q& quantity, std::size_t i) {
-  if constexpr (std::is_arithmetic_v<Q>) {
-    (void)i;
-    return quantity;
-  } else {
+  if constexpr (detail::IsScalarView<Q>::value)
     return static_cast<typename Q::Scalar>(quantity[i]);
-  }
+  else
+    return detail::value_at(quantity, OneParticle{i});
 }
 
 /// Throws `InputError` unless the quantity is positive and finite at each of the `size` particles; the message calls it
@@ -42,9 +84,9 @@ void require_positive(const Q& quantity, std::size_t size, const char* name, con
     require(detail::is_finite(quantity) && quantity > Q(0), "hmps: the ", name, " is ", quantity, " ", unit,
             "; it must be positive and finite");
   } else {
-    require_size(quantity, size, name);
+    detail::require_quantity(quantity, size, name);
     for (std::size_t i = 0; i < size; ++i) {
-      const double value = static_cast<double>(quantity[i]);
+      const auto value = static_cast<double>(at_particle(quantity, i));
       require(detail::is_finite(value) && value > 0, "hmps: the ", name, " of particle ", i, " is ", value, " ", unit,
               "; it must be positive and finite");
     }

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <functional>
-#include <type_traits>
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
@@ -22,39 +20,8 @@
 /// Energies of a body in J (in two dimensions per metre of thickness), summed in double in an order that does not
 /// depend on the executor. `volume` is the volume of a particle in the reference configuration, l0^D on a lattice.
 /// Without viscosity, contact and forced displacements, the scheme conserves kinetic + strain + artificial energy.
+/// `InternalForce::energy` returns the energies of all its terms.
 namespace hmps::inline HMPS_ABI {
-
-/// One particle, as the argument of a callable material in diagnostics. The same callable, `[&](const auto& at) {
-/// return MooneyRivlin{at(c1), at(c2), at(d1)}; }`, serves force and energy.
-struct OneParticle {
-  std::size_t index;
-
-  /// The value of a parameter at this particle.
-  template <class P>
-  [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
-    return static_cast<double>(parameter[index]);
-  }
-  /// The value of a parameter for this particle's body: `table[body[i]]`.
-  template <class P, class B>
-  [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
-    return static_cast<double>(table[static_cast<std::size_t>(body[index])]);
-  }
-};
-
-namespace detail {
-
-template <class Material>
-[[nodiscard]] auto material_at(const Material& material, std::size_t i) {
-  if constexpr (std::invocable<const Material&, OneParticle>) {
-    return material(OneParticle{i});
-  } else if constexpr (PerParticle<Material>) {
-    return at_particle(material, i);
-  } else {
-    return material;
-  }
-}
-
-}  // namespace detail
 
 /// Kinetic energy, sum of m |v|^2 / 2 with m = density * volume.
 ///
@@ -88,7 +55,8 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
       F.size(), 0.0,
       [&](std::size_t i) {
         const Matrix<double, D> gradient = F[i].template cast<double>();
-        return static_cast<double>(at_particle(volume, i)) * energy_density(detail::material_at(material, i), gradient);
+        return static_cast<double>(at_particle(volume, i)) *
+               energy_density(detail::value_at(material, OneParticle{i}), gradient);
       },
       std::plus<>{}, execute);
 }
@@ -156,8 +124,8 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {
-        const double stiffness = artificial_coefficient(static_cast<double>(detail::material_at(modulus, i)), D,
-                                                        1.0 / static_cast<double>(bonds.shape_trace(i)));
+        const double stiffness = artificial_coefficient(static_cast<double>(detail::value_at(modulus, OneParticle{i})),
+                                                        D, 1.0 / static_cast<double>(bonds.shape_trace(i)));
         return static_cast<double>(at_particle(volume, i)) * stiffness * 0.5 * error[i];
       },
       std::plus<>{}, execute);
@@ -185,8 +153,8 @@ template <class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Ser
         double sum = scaled(i);
         bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
         const double theta = static_cast<double>(scales(0, bonds.slot(i))) * sum;
-        return static_cast<double>(at_particle(volume, i)) * static_cast<double>(detail::material_at(bulk, i)) * 0.5 *
-               theta * theta;
+        return static_cast<double>(at_particle(volume, i)) *
+               static_cast<double>(detail::value_at(bulk, OneParticle{i})) * 0.5 * theta * theta;
       },
       std::plus<>{}, execute);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/core/abi.hpp"
@@ -31,6 +32,7 @@ template <Bonds B, class K = typename B::Scalar, int D = B::dimension>
   for (int d = 0; d < D; ++d) u[d] = displacement.lanes(static_cast<std::size_t>(d), slot);
   for (int k = 0; k < D * D; ++k) sum(k % D, k / D) = T(0);
   bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
+    static_assert(RequireRow<std::remove_cvref_t<decltype(bond)>, B>::value);
     const T w = bond.weight();
     const auto neighbour = bond.gather(displacement);
     Vector<T, D> relative;

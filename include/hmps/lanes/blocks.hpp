@@ -162,7 +162,7 @@ class Blocks : public detail::Anchored {
   // Components of shape_: those of A^-1 on and above the diagonal, then these.
   static constexpr std::size_t asymmetry = D * (D + 1) / 2, inverse_trace = asymmetry + D,
                                shape_components = inverse_trace + 1;
-  using Shapes = SlotArrays<K, shape_components>;
+  using Shapes = detail::SlotArrays<K, shape_components>;
 
   [[nodiscard]] std::size_t shape_slot(std::size_t slot) const {
     return shape_block_[slot / width] * width + slot % width;
@@ -177,7 +177,7 @@ class Blocks : public detail::Anchored {
   std::vector<Index> particle_of_;
   std::vector<Index> slot_of_;
   std::vector<std::uint8_t> consecutive_;
-  SlotArrays<double, std::size_t{D}> reference_;
+  detail::SlotArrays<double, std::size_t{D}> reference_;
   Shapes shape_;
   std::vector<Index> shape_block_;  ///< Index into shape_ of the lanes of each block.
   double standard_density_ = 0;

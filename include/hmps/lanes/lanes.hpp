@@ -210,18 +210,20 @@ template <class T>
   return result;
 }
 
+namespace detail {
+
 /// Loads the lanes from `source`, which need not be aligned.
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> load(const T* source) {
   Lanes<T> result;
-  detail::copy_lanes(result.lane, source);
+  copy_lanes(result.lane, source);
   return result;
 }
 
 /// Stores the lanes at `target`, which need not be aligned.
 template <class T>
 HMPS_INLINE void store(T* target, const Lanes<T>& a) {
-  detail::copy_lanes(target, a.lane);
+  copy_lanes(target, a.lane);
 }
 
 /// `value` in every lane whose bit is set in `lanes`, zero in the others.
@@ -230,11 +232,11 @@ template <class T>
   Lanes<T> result;
 #if defined(HMPS_EACH_REGISTER)
   using Bits = typename Lanes<T>::Bits;
-  using Mask = typename detail::Register<T>::Mask;
-  using Vector = typename detail::Register<T>::Vector;
+  using Mask = typename Register<T>::Mask;
+  using Vector = typename Register<T>::Vector;
   HMPS_EACH_REGISTER {
     Mask bit{}, x;
-    for (int k = 0; k < detail::Register<T>::width; ++k) bit[k] = Bits{1} << (l + k);
+    for (int k = 0; k < Register<T>::width; ++k) bit[k] = Bits{1} << (l + k);
     const Mask all = static_cast<Bits>(lanes) - Mask{};
     const Vector v = value - Vector{};
     __builtin_memcpy(&x, &v, sizeof(x));
@@ -247,22 +249,6 @@ template <class T>
   return result;
 }
 
-/// The numbers `f(lane)`.
-template <class T, class F>
-[[nodiscard]] HMPS_INLINE Lanes<T> lanes_of(F&& f) {
-  Lanes<T> result;
-#if defined(HMPS_EACH_REGISTER)
-  HMPS_EACH_REGISTER {
-    typename detail::Register<T>::Vector x{};  // g++ 12 does not see that all of it is written
-    for (int k = 0; k < detail::Register<T>::width; ++k) x[k] = f(l + k);
-    __builtin_memcpy(result.lane + l, &x, sizeof(x));
-  }
-#else
-  for (int l = 0; l < Lanes<T>::width; ++l) result.lane[l] = f(l);
-#endif
-  return result;
-}
-
 /// Applies `f` to each lane, for functions without a vector form.
 template <class T, class F>
 [[nodiscard]] HMPS_INLINE Lanes<T> each(const Lanes<T>& a, F&& f) {
@@ -270,6 +256,8 @@ template <class T, class F>
   for (int l = 0; l < Lanes<T>::width; ++l) result.lane[l] = f(a.lane[l]);
   return result;
 }
+
+}  // namespace detail
 
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> abs(const Lanes<T>& a) {
@@ -285,15 +273,15 @@ template <class T>
 }
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> sqrt(const Lanes<T>& a) {
-  return each(a, [](T x) { return std::sqrt(x); });
+  return detail::each(a, [](T x) { return std::sqrt(x); });
 }
 template <class T>
 [[nodiscard]] inline Lanes<T> log(const Lanes<T>& a) {
-  return each(a, [](T x) { return std::log(x); });
+  return detail::each(a, [](T x) { return std::log(x); });
 }
 template <class T>
 [[nodiscard]] inline Lanes<T> exp(const Lanes<T>& a) {
-  return each(a, [](T x) { return std::exp(x); });
+  return detail::each(a, [](T x) { return std::exp(x); });
 }
 template <class T>
 [[nodiscard]] inline Lanes<T> pow(const Lanes<T>& a, const Lanes<T>& exponent) {
@@ -331,7 +319,8 @@ template <class T>
   for (int i = 0; i < iterations; ++i) y = y + y * (T(1) - x * y * y * y) * T(1.0 / 3.0);
   return select(x > T(0), y, Lanes<T>(std::numeric_limits<T>::quiet_NaN()));
 #else
-  return each(x, [](T value) { return value > T(0) ? T(1) / std::cbrt(value) : std::numeric_limits<T>::quiet_NaN(); });
+  return detail::each(
+      x, [](T value) { return value > T(0) ? T(1) / std::cbrt(value) : std::numeric_limits<T>::quiet_NaN(); });
 #endif
 }
 

@@ -48,8 +48,6 @@ template <class T>
   return result;
 }
 
-}  // namespace detail
-
 /// `N` numbers per slot in the scalar type of the sweeps, stored as one array per component. Bonds read the numbers of
 /// neighbours with consecutive slots as one run of lanes. Each array has a margin of one block at both ends, so that a
 /// run that crosses an end needs no test.
@@ -90,7 +88,7 @@ class SlotArrays {
     std::ptrdiff_t first, second;
     [[nodiscard]] HMPS_INLINE Lanes<K> operator[](std::size_t component) const {
       const K* const values = &arrays(component, 0);
-      return detail::load_halves(values + first, values + second);
+      return load_halves(values + first, values + second);
     }
   };
   [[nodiscard]] HMPS_INLINE SplitRun run(std::ptrdiff_t first, std::ptrdiff_t second) const {
@@ -114,5 +112,7 @@ class SlotArrays {
   std::size_t pitch_ = 0;
   std::vector<K> values_;
 };
+
+}  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

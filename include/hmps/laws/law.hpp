@@ -46,6 +46,17 @@ concept DeformationGradientLaw = requires(const Law& law, const Matrix<T, D>& F)
 template <class Law, class T = double, int D = 3>
 concept ConstitutiveLaw = HyperelasticLaw<Law, T, D> || DeformationGradientLaw<Law, T, D>;
 
+namespace detail {
+/// Fails where `Law` is none, with its name in the first line of the message.
+template <class Law, class T, int D>
+struct RequireLaw {
+  static_assert(ConstitutiveLaw<Law, T, D>,
+                "hmps: a law needs second_piola_kirchhoff(C, J) or first_piola_kirchhoff(F), const, taking and "
+                "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar");
+  static constexpr bool value = true;
+};
+}  // namespace detail
+
 /// The law also knows its energy: `law.energy(C, J)` of a hyperelastic law, `law.energy(F)` of a
 /// law of the deformation gradient, in J/m3. Only diagnostics ask for it.
 template <class Law, class T = double, int D = 3>
@@ -60,9 +71,7 @@ concept LawWithEnergy = ConstitutiveLaw<Law, T, D> &&(
 /// The first Piola-Kirchhoff stress in Pa, \paper{7}: F S, at the deformation gradient `F`.
 template <class Law, class T, int D>
 [[nodiscard]] HMPS_INLINE Matrix<T, D> first_piola_kirchhoff(const Law& law, const Matrix<T, D>& F) {
-  static_assert(ConstitutiveLaw<Law, T, D>,
-                "hmps: a law needs second_piola_kirchhoff(C, J) or first_piola_kirchhoff(F), const, taking and "
-                "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar");
+  static_assert(detail::RequireLaw<Law, T, D>::value);
   if constexpr (DeformationGradientLaw<Law, T, D>) {
     return law.first_piola_kirchhoff(F);
   } else {

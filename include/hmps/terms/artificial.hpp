@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/per_particle.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -23,34 +25,33 @@ template <class T>
 /// gradient would have it, so that the motions that F does not see cost energy. In the terms of
 /// `Coupling`: M -= C F and c += C.
 ///
-/// `Modulus` is E_hat in Pa, the same for all particles, or a callable that gives that of the
-/// particles of a block: `[&](const auto& at) { return at(modulus); }`.
+/// `Modulus` is E_hat in Pa: a number, a `ScalarView`, or a callable, `[&](const auto& at) { return 2 * at(mu); }`.
 template <class Modulus>
 struct Artificial {
   Modulus modulus;
 
   template <class K, int D>
   HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) const {
-    const Lanes<K> C = artificial_coefficient(modulus_of(particles), D, particles.inverse_shape_trace());
+    const Lanes<K> own = detail::value_at(modulus, particles);
+    const Lanes<K> C = artificial_coefficient(own, D, particles.inverse_shape_trace());
     const auto& F = particles.deformation_gradient;
     for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) -= C * F(k % D, k / D);
     coupling.c += C;
   }
 
- private:
-  template <class K, int D>
-  [[nodiscard]] HMPS_INLINE Lanes<K> modulus_of(const BlockOfParticles<K, D>& particles) const {
-    if constexpr (std::is_arithmetic_v<Modulus>) {
-      return Lanes<K>(modulus);
-    } else {
-      return modulus(particles);
-    }
+  /// C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij in J/m3, whose gradient is \paper{19}.
+  template <class Particle>
+  [[nodiscard]] double energy(const Particle& particle) const {
+    const auto own = static_cast<double>(detail::value_at(modulus, particle));
+    return artificial_coefficient(own, Particle::dimension, particle.inverse_shape_trace()) * 0.5 * particle.misfit();
   }
+
+  /// Throws `InputError` if the modulus is a view of another number of particles.
+  void check(std::size_t size) const { detail::require_quantity(modulus, size, "moduli of the artificial force"); }
 };
 
-/// Kondo's stabiliser with E_hat = `modulus` in Pa (the paper: Young's modulus by \paper{18}), or
-/// with a callable that gives it for the particles of a block. Throws `InputError` for a modulus
-/// that is negative or not finite.
+/// Kondo's stabiliser with E_hat = `modulus` in Pa (the paper: Young's modulus by \paper{18}): a number, a view or a
+/// callable. Throws `InputError` for a number that is negative or not finite.
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
   if constexpr (std::is_arithmetic_v<Modulus>)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <concepts>
+#include <type_traits>
 #include <utility>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/math.hpp"
+#include "hmps/core/per_particle.hpp"
 #include "hmps/laws/law.hpp"
 #include "hmps/terms/term.hpp"
 
@@ -23,20 +24,25 @@ struct Elastic {
 
   template <class K, int D>
   HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) const {
-    if constexpr (std::invocable<const Law&, const BlockOfParticles<K, D>&>) {
-      add(law(particles), particles, coupling);
-    } else {
-      add(law, particles, coupling);
-    }
-  }
-
- private:
-  template <class L, class K, int D>
-  HMPS_INLINE static void add(const L& law, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
     using T = Lanes<K>;
-    const Matrix<T, D> stress = first_piola_kirchhoff(law, particles.deformation_gradient);
+    const auto& own = detail::value_at(law, particles);
+    const Matrix<T, D> stress = first_piola_kirchhoff(own, particles.deformation_gradient);
     const Matrix<T, D> pull = product(stress, particles.shape_inverse);
     for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pull(k % D, k / D);
+  }
+
+  /// Fails, with the name of the law, where it does not serve the scalar and the dimension of the bonds.
+  template <class K, int D>
+  static constexpr bool serves() {
+    using Own = std::remove_cvref_t<decltype(detail::value_at(std::declval<const Law&>(),
+                                                              std::declval<const BlockOfParticles<K, D>&>()))>;
+    return detail::RequireLaw<Own, Lanes<K>, D>::value;
+  }
+
+  /// W(F) in J/m3, \paper{6}.
+  template <class Particle>
+  [[nodiscard]] double energy(const Particle& particle) const {
+    return static_cast<double>(energy_density(detail::value_at(law, particle), particle.deformation_gradient));
   }
 };
 

@@ -12,6 +12,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
+#include "hmps/core/per_particle.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/terms/term.hpp"
 
@@ -43,12 +44,19 @@ struct MeanDilatation {
   template <class K, int D>
   [[nodiscard]] HMPS_INLINE Lanes<K> pressure(const BlockOfParticles<K, D>& particles,
                                               const Lanes<K>& mean_dilatation) const {
-    if constexpr (std::is_arithmetic_v<Bulk>) {
-      return Lanes<K>(bulk) * mean_dilatation;
-    } else {
-      return bulk(particles) * mean_dilatation;
-    }
+    const Lanes<K> own = detail::value_at(bulk, particles);
+    return own * mean_dilatation;
   }
+
+  /// U(theta) in J/m3.
+  template <class Particle>
+  [[nodiscard]] double energy(const Particle& particle) const {
+    const double theta = particle.mean_dilatation();
+    return static_cast<double>(detail::value_at(bulk, particle)) * 0.5 * theta * theta;
+  }
+
+  /// Throws `InputError` if the bulk modulus is a view of another number of particles.
+  void check(std::size_t size) const { detail::require_quantity(bulk, size, "bulk moduli of mean_dilatation"); }
 };
 
 /// A bulk modulus in Pa shared between the law of the particles and `mean_dilatation`.
@@ -70,9 +78,8 @@ template <class P>
   return {law, bulk_modulus - law};
 }
 
-/// The term of `internal_force` that resists the mean dilatation with the bulk modulus `bulk` in Pa: a number, or a
-/// callable that gives that of the particles of a block, `[&](const auto& at) { return at(per_particle); }`. Throws
-/// `InputError` for a number that is negative or not finite.
+/// The term of `internal_force` that resists the mean dilatation with the bulk modulus `bulk` in Pa: a number, a view
+/// or a callable. Throws `InputError` for a number that is negative or not finite.
 template <class Bulk>
 [[nodiscard]] MeanDilatation<Bulk> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)

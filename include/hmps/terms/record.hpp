@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include "hmps/core/abi.hpp"
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/staging.hpp"
@@ -24,6 +24,12 @@ struct Record {
   HMPS_INLINE void couple(const BlockOfParticles<K, D>& particles, Coupling<K, D>&) const {
     const auto& F = particles.deformation_gradient;
     detail::deliver(particles.blocks(), particles.block(), target, [&](int k) { return F(k % D, k / D); });
+  }
+
+  /// None: nothing pulls.
+  template <class Particle>
+  [[nodiscard]] double energy(const Particle&) const {
+    return 0;
   }
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
@@ -12,18 +14,13 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// One block of particles as a term sees it, a particle in each lane.
+/// One block of particles and their parameters, a particle in each lane: what a term sees that needs no deformation.
 template <class K, int D>
-class BlockOfParticles {
+class BlockParameters {
  public:
   using T = Lanes<K>;
 
-  BlockOfParticles(const Blocks<K, D>& blocks, std::size_t block, const Matrix<T, D>& gradient,
-                   const Matrix<T, D>& inverse)
-      : deformation_gradient(gradient), shape_inverse(inverse), blocks_(blocks), block_(block) {}
-
-  const Matrix<T, D>& deformation_gradient;  ///< F_i, \paper{11}.
-  const Matrix<T, D>& shape_inverse;         ///< A_i^-1 in 1/m2, \paper{12}.
+  BlockParameters(const Blocks<K, D>& blocks, std::size_t block) : blocks_(blocks), block_(block) {}
 
   /// 1 / sum |r0|^2 w in 1/m2, the denominator of \paper{20}.
   [[nodiscard]] HMPS_INLINE T inverse_shape_trace() const { return blocks_.inverse_trace_lanes(block_); }
@@ -79,10 +76,58 @@ class BlockOfParticles {
   std::size_t block_;
 };
 
-/// What a particle carries to each of its bonds. With M, c of both ends and d of the whole body,
-/// every internal force of the paper is one sum (force density in N/m3):
+/// One block of particles as a coupling term sees it: parameters, and how each particle is deformed.
+template <class K, int D>
+class BlockOfParticles : public BlockParameters<K, D> {
+ public:
+  using T = Lanes<K>;
+
+  BlockOfParticles(const Blocks<K, D>& blocks, std::size_t block, const Matrix<T, D>& gradient,
+                   const Matrix<T, D>& inverse)
+      : BlockParameters<K, D>(blocks, block), deformation_gradient(gradient), shape_inverse(inverse) {}
+
+  const Matrix<T, D>& deformation_gradient;  ///< F_i, \paper{11}.
+  const Matrix<T, D>& shape_inverse;         ///< A_i^-1 in 1/m2, \paper{12}.
+};
+
+/// A bond as a pair term sees it: what is the same from both ends, and no more. `T` is `Lanes<K>` in a force, one bond
+/// of each particle of a block, and `double` in an energy. Lanes without a bond hold anything; what a term returns for
+/// them is dropped.
+template <class T, int D>
+class BondState {
+ public:
+  /// From r0 (m), u_j - u_i (m) and w.
+  HMPS_INLINE BondState(const Vector<T, D>& reference, const Vector<T, D>& relative_displacement, const T& weight)
+      : weight_(weight), reference_square_(0), square_(0), rise_(0) {
+    for (int c = 0; c < D; ++c) {
+      const T r = reference[c] + relative_displacement[c];
+      reference_square_ += reference[c] * reference[c];
+      square_ += r * r;
+      rise_ += relative_displacement[c] * (reference[c] + r);
+    }
+  }
+
+  /// |r0| in m.
+  [[nodiscard]] HMPS_INLINE T reference_length() const { return root(reference_square_); }
+  /// |r| in m.
+  [[nodiscard]] HMPS_INLINE T length() const { return root(square_); }
+  /// |r| - |r0| in m, without the cancellation of the two.
+  [[nodiscard]] HMPS_INLINE T elongation() const { return rise_ / (length() + reference_length()); }
+  /// w, dimensionless.
+  [[nodiscard]] HMPS_INLINE T weight() const { return weight_; }
+
+ private:
+  [[nodiscard]] HMPS_INLINE static T root(const T& square) {
+    using std::sqrt;
+    return sqrt(square);
+  }
+  T weight_, reference_square_, square_, rise_;
+};
+
+/// What a particle carries to each of its bonds. With M, c of both ends and d of the whole body or the mean of both
+/// ends, every internal force of the paper is one sum (force density in N/m3):
 ///
-///     f_i = sum_j w_ij [ (M_i + M_j) r0_ij + (c_i + c_j) r_ij + d (v_j - v_i) ]
+///     f_i = sum_j w_ij [ (M_i + M_j) r0_ij + (c_i + c_j) r_ij + d_ij (v_j - v_i) ]
 ///
 /// It is antisymmetric in i and j, so that the forces sum to zero whatever the terms put in.
 template <class K, int D>
@@ -91,30 +136,62 @@ struct Coupling {
   Lanes<K> c;             ///< Acts on the current position of the neighbour, in Pa/m2.
 };
 
-/// A term of the internal force. Valid expressions, of which a term has one or more:
-///
-/// | expression | meaning |
-/// |---|---|
-/// | `term.couple(particles, coupling)` | adds to `coupling.M` and `coupling.c` of a `BlockOfParticles` |
-/// | `term.damping(bonds)` | d of the whole body, in Pa s/m2 |
-/// | `term.pressure(particles, theta)` | dU/dtheta in Pa, U being an energy of the mean dilatation theta |
-///
-/// A term that holds views of particles has `term.check(size)` too, which throws `InputError` unless they are views of
-/// `size` particles: `internal_force` asks when it is made. Satisfied by `Elastic`, `Artificial`, `Viscous`,
-/// `MeanDilatation`, `Record`, and a user's own struct.
+/// A term that acts through the coupling of a particle to its bonds: `term.couple(particles, coupling)` adds to
+/// `coupling.M` and `coupling.c` of a `BlockOfParticles`. Satisfied by `Elastic`, `Artificial` and `Record`.
 template <class Term, class K, int D>
 concept CouplingTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
   term.couple(particles, coupling);
 };
+
+/// A term that damps relative velocities: `term.damping(blocks)` is d of the whole body in Pa s/m2, read once, when the
+/// force is made. Satisfied by `Viscous`.
 template <class Term, class K, int D>
 concept DampingTerm = requires(const Term& term, const Blocks<K, D>& blocks) {
   { term.damping(blocks) } -> std::convertible_to<double>;
 };
+
+/// A term that damps relative velocities by d of each particle: `term.damping(particles)`, in Pa s/m2, of a
+/// `BlockParameters`; a bond takes the mean of its ends. Satisfied by `ViscousOfEach`.
+template <class Term, class K, int D>
+concept DampingOfEachTerm =
+    !DampingTerm<Term, K, D> && requires(const Term& term, const BlockParameters<K, D>& particles) {
+  { term.damping(particles) } -> std::convertible_to<Lanes<K>>;
+};
+
+/// A term whose energy U depends on the mean dilatation theta of a particle and its neighbours:
+/// `term.pressure(particles, theta)` is dU/dtheta in Pa. Satisfied by `MeanDilatation`.
 template <class Term, class K, int D>
 concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, const Lanes<K>& theta) {
   { term.pressure(particles, theta) } -> std::convertible_to<Lanes<K>>;
 };
+
+/// A term that pulls along each bond: `term.tension(bond)`, of a `BlockOfBonds`, is the force density in N/m3 with
+/// which both ends are pulled to each other, negative where they are pushed apart,
+///
+///     f_i = sum_j t_ij r_ij / |r_ij|.
+///
+/// The term itself multiplies by the weight of the bond, where it is to count. It sees of a bond only what is the same
+/// from both ends, and the force lies along the bond, so that momentum and angular momentum are conserved whatever it
+/// returns. t is the derivative of an energy density with respect to |r|, each bond counted once: see `ForceEnergy`.
 template <class Term, class K, int D>
-concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DilatationTerm<Term, K, D>;
+concept PairTerm = requires(const Term& term, const BondState<Lanes<K>, D>& bond) {
+  { term.tension(bond) } -> std::convertible_to<Lanes<K>>;
+};
+
+/// A term that acts on each particle from outside: `term.body_force(particles)`, of a `BlockParameters`, is the force
+/// density in N/m3, `Vector<Lanes<K>, D>`. It adds to the momentum of the body. Satisfied by `Gravity`.
+template <class Term, class K, int D>
+concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& particles) {
+  { term.body_force(particles) } -> std::convertible_to<Vector<Lanes<K>, D>>;
+};
+
+/// A term of `internal_force`: one or more of the concepts above. A term that holds views of particles has
+/// `term.check(size)` too, which throws `InputError` unless they are views of `size` particles: `internal_force` asks
+/// when it is made. For `InternalForce::energy` a term has `term.energy(bond)` if it is a `PairTerm` and else
+/// `term.energy(particle)`: see `ForceEnergy`. Satisfied by what `elastic`, `artificial`, `viscous`, `mean_dilatation`,
+/// `gravity` and `record` return, and by a user's own struct.
+template <class Term, class K, int D>
+concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||
+    DilatationTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;
 
 }  // namespace hmps::inline HMPS_ABI

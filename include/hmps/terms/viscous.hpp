@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/inline.hpp"
+#include "hmps/core/per_particle.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -27,6 +32,26 @@ struct Viscous {
   }
 };
 
+/// `Viscous` with a density and a viscosity that are views or callables: rho nu of a bond is the mean of its ends.
+template <PerParticle Rho, PerParticle Nu>
+struct ViscousOfEach {
+  Rho density;   ///< rho in kg/m3.
+  Nu viscosity;  ///< nu in m2/s.
+
+  template <class K, int D>
+  [[nodiscard]] HMPS_INLINE Lanes<K> damping(const BlockParameters<K, D>& particles) const {
+    const Lanes<K> rho = detail::value_at(density, particles), nu = detail::value_at(viscosity, particles);
+    const Blocks<K, D>& blocks = particles.blocks();
+    return rho * nu * static_cast<K>(2 * D / (blocks.standard_lambda() * blocks.standard_density()));
+  }
+
+  /// Throws `InputError` if density or viscosity is a view of another number of particles.
+  void check(std::size_t size) const {
+    detail::require_quantity(density, size, "densities of the viscous force");
+    detail::require_quantity(viscosity, size, "viscosities");
+  }
+};
+
 /// MPS viscosity as a term of `internal_force`: density rho in kg/m3 and kinematic viscosity nu in
 /// m2/s (the paper: 1000 and 2e-3). Throws `InputError` for a density that is not positive or a
 /// negative viscosity.
@@ -35,6 +60,13 @@ struct Viscous {
   require(detail::is_finite(viscosity) && viscosity >= 0, "hmps: the viscosity is ", viscosity,
           " m2/s; it must not be negative");
   return {density, viscosity};
+}
+/// The same where one of them, or both, are views or callables. Their values are read anew at each evaluation and not
+/// checked.
+template <PerParticle Rho, PerParticle Nu>
+requires(!std::is_arithmetic_v<Rho> || !std::is_arithmetic_v<Nu>)
+    [[nodiscard]] ViscousOfEach<Rho, Nu> viscous(Rho density, Nu viscosity) {
+  return {std::move(density), std::move(viscosity)};
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -14,7 +14,7 @@
 /// \paper{2, 3, 4}, as verbs to compose:
 ///
 ///     force(x, v, f);          kick(v, f, rho, dt);          // v* of Eq. (2)
-///     contact(x, v, F, f);     kick(v, f, rho, dt);          // Eq. (3)
+///     contact(x, v, F, dt, f); kick(v, f, rho, dt);          // Eq. (3), of an f that was zeroed before
 ///     drift(x, v, dt);                                       // Eq. (4)
 ///
 /// The order of the calls is the scheme: another scheme is another order. No verb knows a force.
@@ -27,7 +27,7 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// @param v    velocities in m/s, changed
 /// @param f    force densities in N/m3
-/// @param rho  density in kg/m3, one number or a `ScalarView` with one per particle
+/// @param rho  density in kg/m3: a number, a `ScalarView` with one per particle, or a callable
 /// @param dt   time step in s, positive
 /// Throws `InputError` for views of different sizes, a density or a step that is not positive.
 template <class T, class U, int D, PerParticle Rho, Executor E = Serial>
@@ -74,7 +74,7 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, cons
 ///               step to step, and part of what a checkpoint saves
 /// A translation unit compiled with -ffast-math drops the compensation.
 template <class T, class U, int D, Executor E = Serial>
-void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, const VectorView<T, D>& carry,
+void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorView<T, D>& carry, double dt,
            const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: drift changes the positions; give it a writable view of them");
   require_view(x, "positions");

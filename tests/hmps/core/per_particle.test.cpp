@@ -12,12 +12,31 @@ namespace {
 using namespace hmps;
 
 static_assert(PerParticle<double> && PerParticle<float> && PerParticle<ScalarView<const float>>);
-static_assert(!PerParticle<std::vector<double>> && !PerParticle<std::string>);
+static_assert(!PerParticle<std::vector<double>> && !PerParticle<decltype([](int) { return 1.0; })> &&
+              !PerParticle<std::string>);
 
 TEST(PerParticle, NumberIsSharedAndViewIsEachOnesOwn) {
   std::vector<float> values{1.5f, 2.5f, 3.5f};
   EXPECT_EQ(at_particle(1000.0, 2), 1000.0);
   EXPECT_EQ(at_particle(scalars(values), 2), 3.5f);
+}
+
+// A callable computes the value from parameters of the particle or of its body, and is checked like a view.
+TEST(PerParticle, CallableComputesTheValueOfEach) {
+  std::vector<float> values{1.5f, 2.5f, 3.5f};
+  std::vector<double> table{10, 20};
+  std::vector<int> body{0, 1, 0};
+  const auto sum = [&](const auto& at) { return 2 * at(scalars(values)) + at(scalars(table), scalars(body)); };
+  static_assert(PerParticle<decltype(sum)>);
+  EXPECT_EQ(at_particle(sum, 1), 25.0);
+  EXPECT_NO_THROW(require_positive(sum, 3, "density", "kg/m3"));
+  values[2] = -5;
+  try {
+    require_positive(sum, 3, "density", "kg/m3");
+    FAIL() << "a density of 0 was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("density of particle 2"), std::string::npos) << error.what();
+  }
 }
 
 TEST(PerParticle, ValuesThatAreNotPositiveAreNamed) {

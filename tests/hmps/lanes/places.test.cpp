@@ -56,7 +56,7 @@ TYPED_TEST(Places, GiveR0ToTheRoundingOfTheKernelsAndOfOppositeSignFromBothEnds)
         EXPECT_EQ(there, -back);
         // A block of lanes at once.
         if (i % width != 0 || i + 1 + width > points.size()) continue;
-        const hmps::Lanes<K> lanes = places.offset(hmps::load(slots + i + 1), hmps::load(slots + i));
+        const hmps::Lanes<K> lanes = places.offset(hmps::detail::load(slots + i + 1), hmps::detail::load(slots + i));
         for (std::size_t l = 0; l < width; ++l)
           EXPECT_EQ(lanes.lane[l], places.offset(slots[i + 1 + l], slots[i + l])) << l;
       }

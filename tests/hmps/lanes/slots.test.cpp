@@ -29,7 +29,7 @@ Slots marked(std::size_t components, std::size_t slots) {
 TYPED_TEST(Slots, ArraysHaveAMarginOfZerosAtBothEnds) {
   constexpr auto width = static_cast<std::ptrdiff_t>(hmps::Lanes<TypeParam>::width);
   constexpr std::ptrdiff_t slots = 48;
-  const auto arrays = marked<hmps::SlotArrays<TypeParam, 3>>(3, slots);
+  const auto arrays = marked<hmps::detail::SlotArrays<TypeParam, 3>>(3, slots);
   for (std::ptrdiff_t first = -width; first <= slots; ++first)
     for (std::size_t c = 0; c < 3; ++c)
       for (std::ptrdiff_t l = 0; l < width; ++l) {
@@ -46,14 +46,14 @@ TYPED_TEST(Slots, ArraysHaveAMarginOfZerosAtBothEnds) {
           EXPECT_EQ(arrays.run(first, second)[c].lane[k], arrays.run(l < width / 2 ? first : second)[c].lane[k]);
         }
   EXPECT_GE(arrays.bytes(), 3 * slots * sizeof(TypeParam));
-  EXPECT_EQ((hmps::SlotArrays<TypeParam, 0>(slots).bytes()), 0u);
+  EXPECT_EQ((hmps::detail::SlotArrays<TypeParam, 0>(slots).bytes()), 0u);
 }
 
 // What was put in one by one comes out a block at a time, and the other way round.
 TYPED_TEST(Slots, ArraysHandOutWhatWasKept) {
   constexpr auto width = static_cast<std::size_t>(hmps::Lanes<TypeParam>::width);
   constexpr std::size_t slots = 5 * width;
-  auto arrays = marked<hmps::SlotArrays<TypeParam, 10>>(10, slots);
+  auto arrays = marked<hmps::detail::SlotArrays<TypeParam, 10>>(10, slots);
   for (std::size_t c = 0; c < 10; ++c) {
     const auto second = arrays.lanes(c, width);
     for (std::size_t l = 0; l < width; ++l) EXPECT_EQ(second.lane[l], static_cast<TypeParam>(mark(c, width + l)));
@@ -64,6 +64,8 @@ TYPED_TEST(Slots, ArraysHandOutWhatWasKept) {
       EXPECT_EQ(arrays(c, s), static_cast<TypeParam>(mark(c, s / width == 2 ? s - width : s)));
 }
 
-TYPED_TEST(Slots, NumbersThatNoForceNeedsTakeNoMemory) { EXPECT_EQ((hmps::SlotArrays<TypeParam, 0>(40).bytes()), 0u); }
+TYPED_TEST(Slots, NumbersThatNoForceNeedsTakeNoMemory) {
+  EXPECT_EQ((hmps::detail::SlotArrays<TypeParam, 0>(40).bytes()), 0u);
+}
 
 }  // namespace

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "hmps/bonds/bonds.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/per_particle.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/terms/term.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// The energies of a body by the `N` terms of its force, in the order in which they were named, in J (in two dimensions
+/// per metre of thickness). Terms that keep no energy, such as viscosity, have zero.
+template <std::size_t N>
+struct ForceEnergy {
+  std::array<double, N> of_term{};
+
+  [[nodiscard]] double total() const { return std::accumulate(of_term.begin(), of_term.end(), 0.0); }
+};
+
+/// One particle as the energy of a term sees it, in double: `term.energy(particle)` is an energy per reference volume
+/// in J/m3. As a `OneParticle` it gives parameters, `particle(view)`. A term that is a `PairTerm` has instead
+/// `term.energy(bond)`, of a `BondState<double, D>`, whose derivative with respect to |r| is the tension; each bond
+/// counts once.
+template <Bonds B>
+class ParticleState : public OneParticle {
+ public:
+  static constexpr int dimension = B::dimension;
+  using Vectors = std::vector<Vector<double, dimension>>;
+  using Gradients = std::vector<Matrix<double, dimension>>;
+  using Scales = typename B::template Slots<1>;
+
+  ParticleState(std::size_t i, const B& bonds, const Vectors& x, const Gradients& F, const Scales* scales)
+      : OneParticle{i}, position(x[i]), deformation_gradient(F[i]), bonds_(bonds), x_(x), F_(F), scales_(scales) {}
+
+  const Vector<double, dimension>& position;              ///< x in m.
+  const Matrix<double, dimension>& deformation_gradient;  ///< F, \paper{11}.
+
+  /// 1 / sum |r0|^2 w in 1/m2, the denominator of \paper{20}.
+  [[nodiscard]] double inverse_shape_trace() const { return 1.0 / static_cast<double>(bonds_.shape_trace(index)); }
+
+  /// sum_j |r_ij - F r0_ij|^2 w_ij in m2, the error functional of \paper{9}.
+  [[nodiscard]] double misfit() const {
+    const Matrix<double, dimension> strain = deformation_gradient - Matrix<double, dimension>::Identity();
+    double sum = 0;
+    visit_bonds([&](const Vector<double, dimension>& r0, const Vector<double, dimension>& relative, double w) {
+      sum += w * (relative - strain * r0).squaredNorm();
+    });
+    return sum;
+  }
+
+  /// theta of `MeanDilatation`. Throws `InputError` in a force without a term of the mean dilatation.
+  [[nodiscard]] double mean_dilatation() const {
+    require(scales_ != nullptr,
+            "hmps: an energy asks for the mean dilatation in a force without such a term; give it pressure(...)");
+    double sum = scaled_dilatation(index);
+    bonds_.for_each_bond(index, [&](std::size_t j, const auto&, auto) { sum += scaled_dilatation(j); });
+    return scale(index) * sum;
+  }
+
+  /// Calls `visit(r0, u_j - u_i, w)` for each bond, in m.
+  template <class Visit>
+  void visit_bonds(Visit&& visit) const {
+    bonds_.for_each_bond(index, [&](std::size_t j, const auto& r0, auto w) {
+      const Vector<double, dimension> reference = r0.template cast<double>();
+      const Vector<double, dimension> relative = (x_[j] - bonds_.reference(j)) - (position - bonds_.reference(index));
+      visit(reference, relative, static_cast<double>(w));
+    });
+  }
+
+ private:
+  [[nodiscard]] double scale(std::size_t k) const { return static_cast<double>((*scales_)(0, bonds_.slot(k))); }
+  [[nodiscard]] double scaled_dilatation(std::size_t k) const { return scale(k) * (determinant(F_[k]) - 1); }
+
+  const B& bonds_;
+  const Vectors& x_;
+  const Gradients& F_;
+  const Scales* scales_;
+};
+
+namespace detail {
+
+/// The energy of `term` per volume of one particle in J/m3; zero if it keeps none.
+template <class Term, Bonds B>
+[[nodiscard]] double energy_of_term(const Term& term, const ParticleState<B>& particle) {
+  using K = typename B::Scalar;
+  constexpr int D = B::dimension;
+  if constexpr (PairTerm<Term, K, D>) {
+    static_assert(
+        requires(const BondState<double, D>& bond) {
+          { term.energy(bond) } -> std::convertible_to<double>;
+        },
+        "hmps: a pair term has an energy only with energy(bond), of a BondState<double, D>, in J/m3");
+    double sum = 0;
+    particle.visit_bonds([&](const Vector<double, D>& r0, const Vector<double, D>& relative, double w) {
+      sum += 0.5 * static_cast<double>(term.energy(BondState<double, D>(r0, relative, w)));
+    });
+    return sum;
+  } else if constexpr (CouplingTerm<Term, K, D> || DilatationTerm<Term, K, D> || BodyForceTerm<Term, K, D>) {
+    static_assert(
+        requires {
+          { term.energy(particle) } -> std::convertible_to<double>;
+        },
+        "hmps: this term has no energy(particle), of a ParticleState, in J/m3; let it return 0 if it keeps none");
+    return static_cast<double>(term.energy(particle));
+  } else {
+    return 0;
+  }
+}
+
+/// The energies of `terms` at the positions `x`; see `InternalForce::energy`.
+template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
+[[nodiscard]] ForceEnergy<sizeof...(Terms)> energies(const B& bonds, const std::tuple<Terms...>& terms,
+                                                     const typename B::template Slots<1>* scales,
+                                                     const VectorView<X, B::dimension>& x, const Vol& volume,
+                                                     const E& execute) {
+  constexpr std::size_t N = sizeof...(Terms);
+  std::vector<Vector<double, B::dimension>> positions(bonds.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = x[i].template cast<double>();
+  std::vector<Matrix<double, B::dimension>> F(bonds.size());
+  deformation_gradient(bonds, x, matrices(F), execute);
+  using Energies = std::array<double, N>;
+  const Energies sum = reduce(
+      bonds.size(), Energies{},
+      [&](std::size_t i) {
+        const ParticleState<B> particle(i, bonds, positions, F, scales);
+        const auto own = static_cast<double>(at_particle(volume, i));
+        return std::apply([&](const auto&... term) { return Energies{own * energy_of_term(term, particle)...}; },
+                          terms);
+      },
+      [](Energies a, const Energies& b) {
+        for (std::size_t k = 0; k < N; ++k) a[k] += b[k];
+        return a;
+      },
+      execute);
+  return {sum};
+}
+
+}  // namespace detail
+
+}  // namespace hmps::inline HMPS_ABI

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "hmps/bonds/bonds.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/particle_set.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// A pressure on the surface of a body that follows its deformation. In the reference configuration each particle near
+/// the surface has an outward area per volume, in 1/m,
+///
+///     b_i = - sum_j w_ij (A_i^-1 + A_j^-1) r0_ij,
+///
+/// the force density with which a uniform unit stress would be in equilibrium on these bonds; it vanishes inside. A
+/// pressure p (Pa) pushes with
+///
+///     f_i = - p J F^-T b_i = - p cof(F_i) b_i
+///
+/// (Nanson's formula), so that a body under the same pressure all around is in equilibrium exactly. The areas of one
+/// face lie on all particles within the effective radius of it, with that of \paper{8} two layers, and add up to the
+/// area of the face. A particle near an edge has the areas of both faces.
+template <int D>
+class Pressure {
+ public:
+  /// On the particles of `loaded`, which should hold all of those near the loaded face that carry its area: with the
+  /// paper's radius the two outermost layers. `bonds` are needed only now. Throws `InputError` for a set of another
+  /// number of particles, and for one of which no particle is near a surface.
+  template <Bonds B>
+  requires(B::dimension == D) Pressure(const B& bonds, const ParticleSet& loaded)
+      : size_(bonds.size()), particles_(loaded.indices()), area_(particles_.size(), Vector<double, D>::Zero()) {
+    require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is of ", loaded.scene_size(),
+            " particles but the bonds are of ", size_, "; make both of the same scene");
+    double largest = 0, least = 0;  // |b| of a face is of the order of one over the length of a bond
+    for (std::size_t k = 0; k < particles_.size(); ++k) {
+      const std::size_t i = particles_[k];
+      const Matrix<double, D> own = bonds.shape_inverse(i).template cast<double>();
+      bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {
+        const Vector<double, D> r = r0.template cast<double>();
+        area_[k] -= static_cast<double>(w) * ((own + bonds.shape_inverse(j).template cast<double>()) * r);
+        least = std::max(least, 1e-3 / r.norm());
+      });
+      largest = std::max(largest, area_[k].norm());
+    }
+    require(largest > least, "hmps: none of the ", particles_.size(),
+            " particles under pressure is near a surface; name those of the outermost layers");
+  }
+
+  /// Adds the force density (N/m3) of the pressure `p` (Pa, positive where it pushes inwards) at the deformation
+  /// gradients `F` to `f`. Throws `InputError` for views of the wrong size and a pressure that is not finite.
+  template <class M, class T, Executor E = Serial>
+  void add(const MatrixView<M, D>& F, const VectorView<T, D>& f, double p, const E& execute = {}) const {
+    require_size(F, size_, "deformation gradients");
+    require_size(f, size_, "force densities");
+    require(detail::is_finite(p), "hmps: the pressure is ", p, " Pa; give a finite number");
+    execute(particles_.size(), [&](std::size_t k) {
+      const Index i = particles_[k];
+      const Matrix<double, D> gradient = F[i].template cast<double>();
+      f.add(i, Vector<double, D>(-p * (cofactor(gradient) * area_[k])));
+    });
+  }
+
+  /// The outward area of the loaded particles in the reference configuration in m2 (in two dimensions m), each of
+  /// `volume` (m^D): of a plane face its area along its normal, of a closed surface zero.
+  [[nodiscard]] Vector<double, D> area(double volume) const {
+    Vector<double, D> sum = Vector<double, D>::Zero();
+    for (const auto& own : area_) sum += own * volume;
+    return sum;
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<Index> particles_;
+  std::vector<Vector<double, D>> area_;
+};
+template <Bonds B>
+Pressure(const B&, const ParticleSet&) -> Pressure<B::dimension>;
+
+}  // namespace hmps::inline HMPS_ABI

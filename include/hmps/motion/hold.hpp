@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+
+/// Particles that are held, or that have one component of their velocity fixed: to be called after the last kick and
+/// before the drift. For particles that move as prescribed see `ControlRegion`.
+namespace hmps::inline HMPS_ABI {
+
+/// Sets the velocities `v` (m/s) of the particles of `held` to zero: a clamp. Throws `InputError` for a set of another
+/// number of particles.
+template <class V, int D>
+void hold(const VectorView<V, D>& v, const ParticleSet& held) {
+  require_size(v, held.scene_size(), "velocities");
+  for (const Index i : held)
+    for (int c = 0; c < D; ++c) v(i, c) = 0;
+}
+
+/// Sets component `c` of the velocities `v` (m/s) of the particles of `held` to `velocity` (m/s): with zero, a plane of
+/// symmetry or a frictionless guide across that axis. Throws `InputError` for a component that does not exist, a
+/// velocity that is not finite and a set of another number of particles.
+template <class V, int D>
+void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
+  require_size(v, held.scene_size(), "velocities");
+  require(0 <= c && c < D, "hmps: component ", c, " of a velocity is to be held, but there are the components 0 to ",
+          D - 1);
+  require(detail::is_finite(velocity), "hmps: component ", c, " of a velocity is to be held at ", velocity,
+          " m/s; give a finite number");
+  using S = typename VectorView<V, D>::Scalar;
+  for (const Index i : held) v(i, c) = static_cast<S>(velocity);
+}
+
+/// Takes the component along `normal` (of any length but zero) from the velocities `v` (m/s) of the particles of
+/// `held`: a plane of symmetry or a frictionless guide at any angle. Throws `InputError` for a normal that is zero or
+/// not finite and for a set of another number of particles.
+template <class V, int D, class Derived>
+void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen::MatrixBase<Derived>& normal) {
+  require_size(v, held.scene_size(), "velocities");
+  const Vector<double, D> given = normal.template cast<double>();
+  const double length = given.norm();
+  require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (", given.transpose(),
+          "); give a direction of finite length");
+  const Vector<double, D> n = given / length;
+  for (const Index i : held) {
+    const Vector<double, D> own = v[i].template cast<double>();
+    v.set(i, Vector<double, D>(own - own.dot(n) * n));
+  }
+}
+
+}  // namespace hmps::inline HMPS_ABI

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/core/particle_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace {
+
+using hmps::Index;
+using hmps::ParticleSet;
+using List = std::vector<Index>;
+
+static_assert(std::predicate<const ParticleSet&, std::size_t>);
+
+TEST(ParticleSet, IsAListAndAPredicate) {
+  const ParticleSet odd(7, [](std::size_t i) { return i % 2 == 1; });
+  EXPECT_EQ(odd.indices(), (List{1, 3, 5}));
+  EXPECT_TRUE(odd(5));
+  EXPECT_FALSE(odd(4));
+  EXPECT_FALSE(odd(9));
+  EXPECT_EQ(odd.size(), 3u);
+  EXPECT_EQ(odd.scene_size(), 7u);
+  EXPECT_EQ(List(odd.begin(), odd.end()), odd.indices());
+  EXPECT_EQ(ParticleSet(7, List{5, 1, 3}), odd);
+}
+
+TEST(ParticleSet, HasAnOppositeAndIsJoinedWithOthers) {
+  const ParticleSet odd(7, List{1, 3, 5}), low(7, List{0, 1, 2});
+  EXPECT_EQ((~odd).indices(), (List{0, 2, 4, 6}));
+  EXPECT_EQ(~~odd, odd);
+  EXPECT_EQ((odd | low).indices(), (List{0, 1, 2, 3, 5}));
+  EXPECT_EQ((odd & low).indices(), (List{1}));
+  EXPECT_EQ((odd & ~odd).size(), 0u);
+  EXPECT_THROW((void)(odd | ParticleSet(6, List{})), hmps::InputError);
+}
+
+TEST(ParticleSet, RefusesWhatIsNoParticleOrGivenTwice) {
+  const auto text = [](const List& indices) {
+    try {
+      (void)ParticleSet(4, indices);
+    } catch (const hmps::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(text({1, 4}).find("particle 4 but there are only 4"), std::string::npos);
+  EXPECT_NE(text({2, 1, 2}).find("particle 2 twice"), std::string::npos);
+  EXPECT_EQ(text({3, 0}), "");
+}
+
+}  // namespace

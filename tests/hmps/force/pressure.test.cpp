@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/force/pressure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/neo_hookean.hpp"
+#include "hmps/particles/lattice.hpp"
+#include "hmps/shapes/implicit.hpp"
+#include "hmps/terms/elastic.hpp"
+
+namespace {
+
+using Vector = hmps::Vector<double, 3>;
+using Tensor = hmps::Matrix<double, 3>;
+constexpr double l0 = 1e-3, volume = l0 * l0 * l0;
+
+struct Scene {
+  hmps::Box<double, 3> box{Vector::Zero(), Vector(0.006, 0.008, 0.005)};
+  std::vector<Vector> reference = hmps::fill_lattice(box, box, l0, Vector(Vector::Constant(l0 / 2)));
+  hmps::LatticeBonds<double, 3> bonds{hmps::vectors(reference), {.spacing = l0}};
+  std::vector<Vector> position = reference, load = std::vector<Vector>(reference.size(), Vector::Zero());
+  std::vector<Tensor> gradient = std::vector<Tensor>(reference.size());
+
+  void deform(const Tensor& F) {
+    for (std::size_t i = 0; i < position.size(); ++i) position[i] = F * reference[i];
+    hmps::deformation_gradient(bonds, hmps::vectors(position), hmps::matrices(gradient));
+  }
+  template <class Belongs>
+  [[nodiscard]] hmps::ParticleSet set(Belongs belongs) const {
+    return {reference.size(), [&](std::size_t i) { return belongs(reference[i]); }};
+  }
+};
+
+// The areas of a face add up to its area, those of the whole surface to nothing; the force follows the face (Nanson).
+TEST(Pressure, HasTheAreaOfTheFaceAndTurnsWithIt) {
+  Scene s;
+  const auto everything = s.set([](const Vector&) { return true; });
+  EXPECT_LE(hmps::Pressure(s.bonds, everything).area(volume).norm(), 1e-18);
+  const hmps::Pressure top(s.bonds, s.set([](const Vector& X) { return X[2] > 0.003; }));
+  // The edges have parts of the faces beside them too, which cancel, and the face its whole area.
+  EXPECT_LE((top.area(volume) - Vector(0, 0, 0.006 * 0.008)).norm(), 1e-12 * 0.006 * 0.008);
+
+  Tensor F;
+  F << 0, -1.2, 0, 0.9, 0, 0, 0.1, 0.2, 1.1;  // turned by a right angle, stretched and sheared
+  s.deform(F);
+  top.add(hmps::matrices(s.gradient), hmps::vectors(s.load), 250.0);
+  Vector sum = Vector::Zero();
+  for (const Vector& f : s.load) sum += f * volume;
+  const Vector expected = -250 * F.determinant() * F.inverse().transpose() * Vector(0, 0, 0.006 * 0.008);
+  EXPECT_LE((sum - expected).norm(), 1e-10 * expected.norm());
+  const auto before = s.load;
+  top.add(hmps::matrices(s.gradient), hmps::vectors(s.load), 250.0);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_LE((s.load[i] - 2 * before[i]).norm(), 1e-9 * before[i].norm());
+}
+
+// A body whose uniform stress is - p is in equilibrium with the pressure p all around, particle by particle.
+TEST(Pressure, IsInEquilibriumWithAUniformStress) {
+  Scene s;
+  const hmps::NeoHookean<> law = hmps::NeoHookean<>::from_young(20e3, 0.4);
+  Tensor turn;
+  turn << 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1;
+  const Tensor F = 0.97 * turn;
+  s.deform(F);
+  // P = - p cof F at a uniform compression.
+  const Tensor P = hmps::first_piola_kirchhoff(law, F);
+  const double p = -P(2, 2) / (0.97 * 0.97);
+  ASSERT_GT(p, 100);
+  const auto everything = s.set([](const Vector&) { return true; });
+  auto force = hmps::internal_force(s.bonds, hmps::elastic(law));
+  force(hmps::vectors(s.position), hmps::vectors(s.load));
+  double largest = 0, left = 0;
+  for (const Vector& f : s.load) largest = std::max(largest, f.norm());
+  hmps::Pressure(s.bonds, everything).add(hmps::matrices(s.gradient), hmps::vectors(s.load), p);
+  for (const Vector& f : s.load) left = std::max(left, f.norm());
+  EXPECT_LE(left, 1e-10 * largest);
+}
+
+TEST(Pressure, RefusesBadInput) {
+  Scene s;
+  const auto text = [](auto&& call) {
+    try {
+      call();
+    } catch (const hmps::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  const hmps::ParticleSet other(3, [](std::size_t) { return true; });
+  EXPECT_NE(text([&] { hmps::Pressure(s.bonds, other); }).find("of 3 particles"), std::string::npos);
+  const auto inside = s.set([](const Vector& X) { return (X - Vector(0.0035, 0.0035, 0.0025)).norm() < l0 / 4; });
+  ASSERT_EQ(inside.size(), 1u);
+  EXPECT_NE(text([&] { hmps::Pressure(s.bonds, inside); }).find("near a surface"), std::string::npos);
+  const hmps::Pressure top(s.bonds, s.set([](const Vector& X) { return X[2] > 0.003; }));
+  const auto F = hmps::matrices(s.gradient);
+  const auto f = hmps::vectors(s.load);
+  EXPECT_THROW(top.add(F.part(0, 3), f, 1.0), hmps::InputError);
+  EXPECT_THROW(top.add(F, f.part(0, 3), 1.0), hmps::InputError);
+  EXPECT_THROW(top.add(F, f, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);
+}
+
+}  // namespace
