@@ -24,6 +24,7 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   touching_.reserve(row_count);
   batches_.resize((row_count + batch - 1) / batch);
   history_.resize(lists_.organs().slots());
+  if constexpr (has_spring) motion_.choose(lists_.organs().particle(), lists_.active().awake());
 }
 
 /// F_j^-1 once per particle, many at a time.
@@ -181,6 +182,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
   if (row_count == 0) return report;
 
   gather(x, v, F, execute);
+  if constexpr (has_spring) motion_.update(x, lists_.organs().particle(), execute);
   find(x, v, F, report, execute);
   report.contacts = touching_.size();
   if (touching_.empty()) return report;

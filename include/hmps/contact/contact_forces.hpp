@@ -12,7 +12,7 @@ namespace hmps::inline HMPS_ABI {
 template <class S, int D, Metaball Ball, FrictionLaw Friction>
 S MetaballContact<S, D, Ball, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = stiffness.at(settings_.density, dt);
-  const double largest = k * std::max({1., settings_.spacing, settings_.damping > 0 ? settings_.density : 0.});
+  const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
   require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
               largest <= static_cast<double>(std::numeric_limits<S>::max()),
           "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
@@ -47,7 +47,7 @@ void MetaballContact<S, D, Ball, Friction>::set_laws(double dt) {
   laws_.resize(own_.size());
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const S k = penalty(stiffness(p), dt);
-    laws_[p] = {k, static_cast<S>(2 * settings_.damping) * std::sqrt(k * static_cast<S>(settings_.density)),
+    laws_[p] = {k, static_cast<S>(2 * damping()) * std::sqrt(k * static_cast<S>(settings_.density)),
                 static_cast<S>(own_[p].friction.value_or(settings_.friction))};
   }
 }
@@ -94,13 +94,24 @@ std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& exec
         load = of_masters[0] + load_[lists_.active().rows()[r].slave];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
+      Point velocity = state.slip;
+      if constexpr (has_spring) velocity += follow(r, dt);
       const S normal =
-          normal_force(law.stiffness, state.penetration, std::min(law.damping, most), state.slip.dot(state.normal));
+          normal_force(law.stiffness, state.penetration, std::min(law.damping, most), velocity.dot(state.normal));
       Point force = normal * state.normal;
       if (law.friction > S(0)) {
-        const Point slip = tangential<S, D>(state.slip, state.normal);
-        force += friction_force<S, D>(slip, stick, law.friction * normal);
-        result.count += stick * slip.norm() <= law.friction * normal;
+        const Point slip = tangential<S, D>(velocity, state.normal);
+        if constexpr (has_spring) {
+          Point& elastic = history_.slip(lists_.active().rows()[r].slot).value;
+          const auto found = spring_friction<S, D>(elastic, slip, std::min(law.stiffness, stick / static_cast<S>(dt)),
+                                                   stick, law.friction * normal);
+          elastic = found.elastic;
+          force += found.force;
+          result.count += found.sticks;
+        } else {
+          force += friction_force<S, D>(slip, stick, law.friction * normal);
+          result.count += stick * slip.norm() <= law.friction * normal;
+        }
       }
       detail::spread<S>(force, force_[r]);
     }
@@ -109,6 +120,36 @@ std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& exec
   std::size_t sticking = 0;
   for (std::size_t q = 0; q < count; ++q) sticking += batches_[q].count;
   return sticking;
+}
+
+/// Lets the elastic slip of row `r` follow what has moved since the call before. Returns the part of the velocity of
+/// the wall at the slave that \paper{31} leaves out, m/s: what comes of its turning.
+template <class S, int D, Metaball Ball, FrictionLaw Friction>
+typename MetaballContact<S, D, Ball, Friction>::Point MetaballContact<S, D, Ball, Friction>::follow(Index r,
+                                                                                                    double dt) {
+  const auto& row = lists_.active().rows()[r];
+  Slip& slip = history_.slip(row.slot);
+  if (slip.starts) {
+    slip.starts = false;
+    return Point::Zero();
+  }
+  const S spacing = static_cast<S>(settings_.spacing);
+  const Quad own = motion_.moved(row.slave);
+  detail::WallMotion<S, D> wall(spacing);
+  for (std::size_t e = row.begin; e < lists_.active().rows()[r + 1].begin; ++e) {
+    if (!(weight_[e] > S(0))) continue;
+    const Index j = lists_.active().master_of()[e];
+    Quad place;
+    detail::spread<S>((motion_.between(row.slave, j) / spacing).eval(), place);
+    Quad step = motion_.moved(j);
+    step -= own;
+    place -= step * (S(0.5) / spacing);
+    wall.add(weight_[e], place, motion_.moved(j));
+  }
+  wall.finish();
+  const Point moved = wall.moved() - detail::first<D, S>(own), &n = state_[r].normal;
+  slip.value = wall.across(wall.turned(slip.value), n) + tangential<S, D>(moved, n);
+  return wall.by_turning() / static_cast<S>(dt);
 }
 
 /// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
