@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "hmps/contact/metaball.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
@@ -23,7 +25,7 @@ class MasterSurface {
   /// Adds one master to \paper{28, 30} and returns its c, zero beyond its reach.
   /// `over_radius_squared` is 1 / r_e^2 in 1/m2.
   S reach(const Matrix<S, D>& A, const Vector<S, D>& r, S over_radius_squared) {
-    Quad columns[D], place;
+    Quad columns[std::size_t{D}], place;
     for (int c = 0; c < D; ++c) detail::spread<S>(A.col(c), columns[c]);
     detail::spread<S>(r, place);
     return reach(columns, place, over_radius_squared);
@@ -43,7 +45,7 @@ class MasterSurface {
 
   /// Adds one master with metaball value `c`, B = F_j^-1 and its velocity to the means of \paper{31, 33}.
   void mean(S c, const Matrix<S, D>& B, const Vector<S, D>& v) {
-    Quad columns[D], velocity;
+    Quad columns[std::size_t{D}], velocity;
     for (int q = 0; q < D; ++q) detail::spread<S>(B.col(q), columns[q]);
     detail::spread<S>(v, velocity);
     mean(c, columns, velocity);
@@ -91,9 +93,9 @@ class MasterSurface {
   }
 
  private:
-  Quad sum_{};            // of (dc/ds) A_j r_ij, and of c behind it
-  Quad velocity_{};       // of c v_j
-  Quad inverse_[D] = {};  // of c F_j^-1
+  Quad sum_{};                         // of (dc/ds) A_j r_ij, and of c behind it
+  Quad velocity_{};                    // of c v_j
+  Quad inverse_[std::size_t{D}] = {};  // of c F_j^-1
 };
 
 /// r_im in m, \paper{34, 35, 36}: distance of the slave's centre from the master surface, which lies

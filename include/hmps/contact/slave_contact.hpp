@@ -19,12 +19,12 @@ namespace hmps::inline HMPS_ABI::detail {
 /// What is needed of each master to know how near its wall is; a cache line of float.
 template <class S, int D>
 struct alignas(64) Master {
-  Quad<S> x, A[D];  // position in m, and the columns of A = F^-T F^-1
+  Quad<S> x, A[std::size_t{D}];  // position in m, and the columns of A = F^-T F^-1
 };
 /// What is needed besides of the masters of a wall that is touched.
 template <class S, int D>
 struct alignas(64) MovingMaster {
-  Quad<S> v, B[D];  // velocity in m/s, and the columns of B = F^-1
+  Quad<S> v, B[std::size_t{D}];  // velocity in m/s, and the columns of B = F^-1
 };
 
 /// The masters of a wall: those with the numbers `number[0]` to `number[size - 1]`.

@@ -76,7 +76,7 @@ class WallMotion {
   }
 
   S spacing_;
-  Quad<S> middle_{}, mean_{}, squares_[D] = {}, products_[D] = {};
+  Quad<S> middle_{}, mean_{}, squares_[std::size_t{D}] = {}, products_[std::size_t{D}] = {};
   Tensor spin_ = Tensor::Zero();  // W of u = W r, in m for r in spacings
 };
 
