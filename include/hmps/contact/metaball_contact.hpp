@@ -53,10 +53,10 @@ namespace hmps::inline HMPS_ABI {
 /// rounding each time that all organs together have travelled that far.
 /// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
 /// error of that.
-template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
+template <class S, int D, Metaball Kernel = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
-  using Lists = detail::Candidates<S, D, Ball>;
+  using Lists = detail::Candidates<S, D, Kernel>;
   using Point = Vector<S, D>;
   using Tensor = Matrix<S, D>;
   static constexpr bool has_spring = detail::has_spring<Friction>;

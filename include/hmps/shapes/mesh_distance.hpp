@@ -13,8 +13,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A surface of triangles as a shape: the signed distance to it, so that `fill_lattice(shape, box, ...)`, `RaisedSkin`,
-/// the combinators and all else that takes a shape takes a mesh.
+/// A surface of triangles as a shape: the signed distance to it, so that `fill_lattice(shape, box, ...)`,
+/// `SurfaceCorrection`, the combinators and all else that takes a shape takes a mesh.
 ///
 ///     const MeshDistance<double> organ(read_surface<double>("organ.stl", 1e-3));
 ///     const auto points = fill_lattice(organ, organ.box(), l0);

@@ -11,7 +11,7 @@
 
 #include "bodies.hpp"
 #include "hmps/contact/contact.hpp"
-#include "hmps/contact/raised_skin.hpp"
+#include "hmps/contact/surface_correction.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace {
@@ -62,7 +62,7 @@ Outcome slide(const Setting& setting) {
       }
   if (setting.raised) {
     const hmps::HalfSpace<double, 3> inside{Point(0, 0, 0.5 * l0), Point::UnitZ()};
-    const hmps::RaisedSkin<double, 3> raise(hmps::vectors(scene.x), top, inside, l0);
+    const hmps::SurfaceCorrection<double, 3> raise(hmps::vectors(scene.x), top, inside, l0);
     for (std::size_t n = 0; n < top.size(); ++n) scene.x[top[n]] += raise.offsets()[n];
   }
   for (int k = 0; k < 4; ++k)
@@ -174,7 +174,7 @@ double creep(double degrees, double contacts) {
 /// On a wall that is cut out of its lattice at an angle, its skin raised: what should hold does, what should slide does
 /// at the right rate. Of a soft block `benchmarks/walls` measured errors up to 0.047 m/s2, which come from the bumps
 /// that are left; twice that is allowed. This block is rigid and touches in fewer places.
-TEST(Incline, RaisedSkinHoldsItOnEveryCut) {
+TEST(Incline, SurfaceCorrectionHoldsItOnEveryCut) {
   for (const double cut : {15., 30., 45.}) {
     const auto held = slide<hmps::SmoothMetaball, hmps::CorrectedFriction>(
         {.friction = 0.3, .degrees = 10, .seconds = 0.16, .cut = cut, .raised = true});
