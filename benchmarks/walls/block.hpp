@@ -108,8 +108,8 @@ template <class Ball, class Friction>
   // What contact sees.
   const hmps::HalfSpace<double, 3> above_surface{Point::Zero(), -Point::UnitZ()};
   const std::vector<hmps::Index> none;
-  const hmps::RaisedSkin<double, 3> raise(block(hmps::vectors(reference)), scene.soft && scene.raised ? bottom : none,
-                                          above_surface, spacing);
+  const hmps::SurfaceCorrection<double, 3> raise(block(hmps::vectors(reference)),
+                                                 scene.soft && scene.raised ? bottom : none, above_surface, spacing);
   const auto touch = [&] {
     raise(x, F, hmps::vectors(places));
     (void)contact(hmps::vectors(places), v, F, dt, f);

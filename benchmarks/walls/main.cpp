@@ -107,7 +107,8 @@ template <class Of>
       "by " +
           error("smooth", false, true) + " of the friction coefficient at most, `PaperMetaball` by " +
           error("paper", false, true) + ".",
-      "- Where a surface has to cut the lattice, let contact see it through `RaisedSkin`: with `SmoothMetaball` the "
+      "- Where a surface has to cut the lattice, let contact see it through `SurfaceCorrection`: with `SmoothMetaball` "
+      "the "
       "friction errs by " +
           error("smooth", true, false) + " at most instead of " + error("smooth", false, false) +
           ", and a slide without friction is dragged by " + drag("smooth", true, false) + " instead of " +

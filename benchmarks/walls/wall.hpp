@@ -60,7 +60,7 @@ struct Wall {
     }
     if (!raised) return;
     const hmps::HalfSpace<double, 3> inside{Point::Zero(), Point::UnitZ()};
-    const hmps::RaisedSkin<double, 3> raise(hmps::vectors(places), skin, inside, spacing);
+    const hmps::SurfaceCorrection<double, 3> raise(hmps::vectors(places), skin, inside, spacing);
     for (std::size_t n = 0; n < skin.size(); ++n) places[skin[n]] += raise.offsets()[n];
   }
 };

@@ -147,8 +147,8 @@ struct Body {
 /// The outermost particles of the organs between which the epiglottis folds, as contact shall see them: at the drawn
 /// surface, from which those of a lattice that cuts it lie up to half a spacing off. Those a spacing off or more stay
 /// where they are: they belong to joints and ends.
-[[nodiscard]] inline hmps::RaisedSkin<double, 3> raised_skin(const Scene& scene, const Body& body,
-                                                             const Anatomy& anatomy) {
+[[nodiscard]] inline hmps::SurfaceCorrection<double, 3> surface_correction(const Scene& scene, const Body& body,
+                                                                           const Anatomy& anatomy) {
   const double l0 = scene.spacing;
   const auto surface = [&](const Point& x) { return 1e-3 * anatomy.surface(1e3 * x); };
   const auto depth = depths(body, l0);
@@ -156,7 +156,7 @@ struct Body {
   for (std::size_t i = 0; i < body.points.size(); ++i) {
     const Organ organ = body.organ[i];
     if (depth[i] > 0 || (organ != Organ::epiglottis && organ != Organ::pharynx && organ != Organ::tongue)) continue;
-    const auto offset = hmps::RaisedSkin<double, 3>::offset_of(body.points[i], surface, l0);
+    const auto offset = hmps::SurfaceCorrection<double, 3>::offset_of(body.points[i], surface, l0);
     if (offset && offset->norm() < l0) skin.push_back(static_cast<hmps::Index>(i));
   }
   return {hmps::vectors(scene.reference), skin, surface, l0};
@@ -260,7 +260,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
   }
   detail::declare_contacts(scene, body);
-  scene.skin = detail::raised_skin(scene, body, anatomy);
+  scene.skin = detail::surface_correction(scene, body, anatomy);
   const Point placement = detail::leaf_placement(body, l0);
   for (Region& region : scene.regions)
     if (region.name == "E" || region.name == "F") region.placement = placement;

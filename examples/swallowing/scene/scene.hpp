@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <hmps/contact/raised_skin.hpp>
+#include <hmps/contact/surface_correction.hpp>
 #include <hmps/core/error.hpp>
 #include <hmps/core/types.hpp>
 #include <limits>
@@ -60,8 +60,9 @@ struct Scene {
   std::vector<ContactPair> contacts;
   std::vector<hmps::Index> base, centre,
       tip;  ///< of the epiglottis in the midline: arcs at region E, region F, the end
-  std::optional<hmps::RaisedSkin<double, 3>> skin;  ///< where contact sees the organs' particles: at the drawn surface
-  std::size_t removed = 0;                          ///< weakly supported particles that were left out
+  std::optional<hmps::SurfaceCorrection<double, 3>>
+      skin;                 ///< where contact sees the organs' particles: at the drawn surface
+  std::size_t removed = 0;  ///< weakly supported particles that were left out
 
   /// Whether two particles of the body are bonded if they are near enough: not across an air gap.
   [[nodiscard]] bool bonded(std::size_t i, std::size_t j) const {

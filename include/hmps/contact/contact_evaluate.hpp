@@ -10,8 +10,8 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Makes room for what the present lists name.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-void MetaballContact<S, D, Ball, Friction>::resize() {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+void MetaballContact<S, D, Kernel, Friction>::resize() {
   const std::size_t row_count = lists_.active().rows().size() - 1, awake_count = lists_.active().awake().size() - 1;
   masters_.resize(awake_count);
   moving_.resize(awake_count);
@@ -24,12 +24,13 @@ void MetaballContact<S, D, Ball, Friction>::resize() {
   touching_.reserve(row_count);
   batches_.resize((row_count + batch - 1) / batch);
   history_.resize(lists_.organs().slots());
+  if constexpr (has_spring) motion_.choose(lists_.organs().particle(), lists_.active().awake());
 }
 
 /// F_j^-1 once per particle, many at a time.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G, class E>
-void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
+void MetaballContact<S, D, Kernel, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(gather_batch % width == 0);
   suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, detail::no_particle);
@@ -70,9 +71,9 @@ void MetaballContact<S, D, Ball, Friction>::gather(const X& x, const V& v, const
 }
 
 /// Throws for the first particle that has a position, a velocity or a deformation gradient to be refused.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G>
-void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& v, const G& F) const {
+void MetaballContact<S, D, Kernel, Friction>::check_suspects(const X& x, const V& v, const G& F) const {
   for (std::size_t q = 0; q < suspect_.size(); ++q) {
     if (suspect_[q] == detail::no_particle) continue;
     for (std::size_t t = suspect_[q]; t < std::min(masters_.size(), (q + 1) * gather_batch); ++t) {
@@ -85,9 +86,9 @@ void MetaballContact<S, D, Ball, Friction>::check_suspects(const X& x, const V& 
 
 /// Row `r`: true if its slave touches, and then its weights of \paper{41, 42}. `depth` is set where the wall has lost
 /// it.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G>
-bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
+bool MetaballContact<S, D, Kernel, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
   const auto& row = lists_.active().rows()[r];
   const std::size_t begin = row.begin, size = lists_.active().rows()[r + 1].begin - begin;
   const Index slave = lists_.active().awake()[row.slave].particle;
@@ -97,7 +98,7 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   Quad place;
   detail::spread<S>(lists_.place_of(x, slave), place);
 
-  const detail::SlaveContact<S, D> contact = detail::slave_contact<S, D, Ball>(
+  const detail::SlaveContact<S, D> contact = detail::slave_contact<S, D, Kernel>(
       lists_.normal_density(), place,
       {masters_.data(), moving_.data(), lists_.active().master_of().data() + begin, size}, row.compression,
       [&] { return F[slave].template cast<S>().eval(); }, [&] { return v[slave].template cast<S>().eval(); },
@@ -116,8 +117,8 @@ bool MetaballContact<S, D, Ball, Friction>::touch(std::size_t r, const X& x, con
   return true;
 }
 
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report, double time) const {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+void MetaballContact<S, D, Kernel, Friction>::fail(const ContactReport<S>& report, double time) const {
   throw StateError(message(
       "hmps: ", detail::is_nan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
       lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
@@ -127,10 +128,10 @@ void MetaballContact<S, D, Ball, Friction>::fail(const ContactReport<S>& report,
 }
 
 /// Evaluates all rows, lists those that touch, and reports what walls have lost.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G, class E>
-void MetaballContact<S, D, Ball, Friction>::find(const X& x, const V& v, const G& F, ContactReport<S>& report,
-                                                 const E& execute) {
+void MetaballContact<S, D, Kernel, Friction>::find(const X& x, const V& v, const G& F, ContactReport<S>& report,
+                                                   const E& execute) {
   const std::size_t row_count = lists_.active().rows().size() - 1, count = (row_count + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
     Batch result;
@@ -160,10 +161,10 @@ void MetaballContact<S, D, Ball, Friction>::find(const X& x, const V& v, const G
   }
 }
 
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G, class E>
-ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const V& v, const G& F, double dt,
-                                                               const E& execute) {
+ContactReport<S> MetaballContact<S, D, Kernel, Friction>::survey(const X& x, const V& v, const G& F, double dt,
+                                                                 const E& execute) {
   require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
           " s; give a positive number");
   require_size(x, x.size(), "positions");
@@ -181,6 +182,7 @@ ContactReport<S> MetaballContact<S, D, Ball, Friction>::survey(const X& x, const
   if (row_count == 0) return report;
 
   gather(x, v, F, execute);
+  if constexpr (has_spring) motion_.update(x, lists_.organs().particle(), execute);
   find(x, v, F, report, execute);
   report.contacts = touching_.size();
   if (touching_.empty()) return report;

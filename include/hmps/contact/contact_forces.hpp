@@ -9,10 +9,10 @@
 namespace hmps::inline HMPS_ABI {
 
 /// k in N/m4. Throws `InputError` where `S` cannot hold it, or what is computed from it.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-S MetaballContact<S, D, Ball, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+S MetaballContact<S, D, Kernel, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = stiffness.at(settings_.density, dt);
-  const double largest = k * std::max({1., settings_.spacing, settings_.damping > 0 ? settings_.density : 0.});
+  const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
   require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
               largest <= static_cast<double>(std::numeric_limits<S>::max()),
           "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
@@ -21,9 +21,9 @@ S MetaballContact<S, D, Ball, Friction>::penalty(const PenaltyStiffness& stiffne
 }
 
 /// Throws `InputError` if a particle that the contact may move is too light for the penalty of its pair at step `dt`.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <PerParticle Rho>
-void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, double dt) const {
+void MetaballContact<S, D, Kernel, Friction>::require_heavy(const Rho& rho, double dt) const {
   detail::require_step(dt);
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const double least = stiffness(p).at(settings_.density, dt) * dt * dt;  // of densities, at k~ = 1
@@ -42,20 +42,20 @@ void MetaballContact<S, D, Ball, Friction>::require_heavy(const Rho& rho, double
 }
 
 /// What acts between the organs of each pair at step `dt`.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
-void MetaballContact<S, D, Ball, Friction>::set_laws(double dt) {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+void MetaballContact<S, D, Kernel, Friction>::set_laws(double dt) {
   laws_.resize(own_.size());
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const S k = penalty(stiffness(p), dt);
-    laws_[p] = {k, static_cast<S>(2 * settings_.damping) * std::sqrt(k * static_cast<S>(settings_.density)),
+    laws_[p] = {k, static_cast<S>(2 * damping()) * std::sqrt(k * static_cast<S>(settings_.density)),
                 static_cast<S>(own_[p].friction.value_or(settings_.friction))};
   }
 }
 
 /// N of `CorrectedFriction` for every awake particle.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class E>
-void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
+void MetaballContact<S, D, Kernel, Friction>::weigh(const E& execute) {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     S load = 0;
@@ -69,9 +69,9 @@ void MetaballContact<S, D, Ball, Friction>::weigh(const E& execute) {
 }
 
 /// The forces \paper{39, 40} of the rows that touch; returns how many stick.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class E>
-std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& execute) {
+std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& execute) {
   const S rate = static_cast<S>(settings_.density / dt);
   const bool needs_load = std::any_of(laws_.begin(), laws_.end(), [](const PairLaw& law) {
     return (Friction::needs_load && law.friction > S(0)) || law.damping > S(0);
@@ -94,13 +94,24 @@ std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& exec
         load = of_masters[0] + load_[lists_.active().rows()[r].slave];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
+      Point velocity = state.slip;
+      if constexpr (has_spring) velocity += follow(r, dt);
       const S normal =
-          normal_force(law.stiffness, state.penetration, std::min(law.damping, most), state.slip.dot(state.normal));
+          normal_force(law.stiffness, state.penetration, std::min(law.damping, most), velocity.dot(state.normal));
       Point force = normal * state.normal;
       if (law.friction > S(0)) {
-        const Point slip = tangential<S, D>(state.slip, state.normal);
-        force += friction_force<S, D>(slip, stick, law.friction * normal);
-        result.count += stick * slip.norm() <= law.friction * normal;
+        const Point slip = tangential<S, D>(velocity, state.normal);
+        if constexpr (has_spring) {
+          Point& elastic = history_.slip(lists_.active().rows()[r].slot).value;
+          const auto found = spring_friction<S, D>(elastic, slip, std::min(law.stiffness, stick / static_cast<S>(dt)),
+                                                   stick, law.friction * normal);
+          elastic = found.elastic;
+          force += found.force;
+          result.count += found.sticks;
+        } else {
+          force += friction_force<S, D>(slip, stick, law.friction * normal);
+          result.count += stick * slip.norm() <= law.friction * normal;
+        }
       }
       detail::spread<S>(force, force_[r]);
     }
@@ -111,10 +122,40 @@ std::size_t MetaballContact<S, D, Ball, Friction>::push(double dt, const E& exec
   return sticking;
 }
 
+/// Lets the elastic slip of row `r` follow what has moved since the call before. Returns the part of the velocity of
+/// the wall at the slave that \paper{31} leaves out, m/s: what comes of its turning.
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+typename MetaballContact<S, D, Kernel, Friction>::Point MetaballContact<S, D, Kernel, Friction>::follow(Index r,
+                                                                                                        double dt) {
+  const auto& row = lists_.active().rows()[r];
+  Slip& slip = history_.slip(row.slot);
+  if (slip.starts) {
+    slip.starts = false;
+    return Point::Zero();
+  }
+  const S spacing = static_cast<S>(settings_.spacing);
+  const Quad own = motion_.moved(row.slave);
+  detail::WallMotion<S, D> wall(spacing);
+  for (std::size_t e = row.begin; e < lists_.active().rows()[r + 1].begin; ++e) {
+    if (!(weight_[e] > S(0))) continue;
+    const Index j = lists_.active().master_of()[e];
+    Quad place;
+    detail::spread<S>((motion_.between(row.slave, j) / spacing).eval(), place);
+    Quad step = motion_.moved(j);
+    step -= own;
+    place -= step * (S(0.5) / spacing);
+    wall.add(weight_[e], place, motion_.moved(j));
+  }
+  wall.finish();
+  const Point moved = wall.moved() - detail::first<D, S>(own), &n = state_[r].normal;
+  slip.value = wall.across(wall.turned(slip.value), n) + tangential<S, D>(moved, n);
+  return wall.by_turning() / static_cast<S>(dt);
+}
+
 /// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class Take, class E>
-void MetaballContact<S, D, Ball, Friction>::hand_out(const Take& take, const E& execute) const {
+void MetaballContact<S, D, Kernel, Friction>::hand_out(const Take& take, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     // Rows that do not touch have no force: adding it costs less than to ask.

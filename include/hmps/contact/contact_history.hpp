@@ -10,10 +10,20 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// What is remembered of each slave of each wall from call to call: on which side of the wall it was. What is fast may
-/// jump over the place in a thin wall at which the wall does not tell which way is out; but then the wall has come to
-/// push it to the other side since it was last that far off. Entries of different slaves may be used at once.
-template <int D>
+/// What stands for the elastic slip where friction has none.
+struct NoSlip {};
+/// The elastic slip of a slave at a wall.
+template <class S, int D>
+struct ElasticSlip {
+  Vector<S, D> value = Vector<S, D>::Zero();  ///< In m, of the wall relative to the slave.
+  bool starts = true;                         ///< The slave did not touch in the call before.
+};
+
+/// What is remembered of each slave of each wall from call to call, while it touches: on which side of the wall it was,
+/// and its elastic slip. What is fast may jump over the place in a thin wall at which the wall does not tell which way
+/// is out; but then the wall has come to push it to the other side since it was last that far off. Entries of different
+/// slaves may be used at once.
+template <int D, class Slip = NoSlip>
 class ContactHistory {
  public:
   /// For `size` pairs of a slave and a wall.
@@ -29,14 +39,18 @@ class ContactHistory {
     Entry& entry = entries_[k];
     const bool known = entry.call + 1 == call_, turned = known && entry.outward.dot(outward) < -0.5F;
     if (!known || !inside) entry.outward = outward;
+    if (!known) entry.slip = Slip{};
     entry.call = call_;
     return turned;
   }
+  /// Of entry `k`, which touches in this call by the function above.
+  [[nodiscard]] Slip& slip(std::size_t k) { return entries_[k].slip; }
 
  private:
   struct Entry {
     Vector<float, D> outward;
     std::uint32_t call = 0;  // in which it touched
+    [[no_unique_address]] Slip slip;
   };
   std::vector<Entry> entries_;
   std::uint32_t call_ = 1;

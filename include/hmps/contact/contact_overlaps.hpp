@@ -7,12 +7,12 @@
 
 namespace hmps::inline HMPS_ABI {
 
-template <class S, int D, Metaball Ball, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class G>
-std::vector<Overlap> MetaballContact<S, D, Ball, Friction>::find_overlaps(const X& x, const G& F) const {
+std::vector<Overlap> MetaballContact<S, D, Kernel, Friction>::find_overlaps(const X& x, const G& F) const {
   require_size(x, x.size(), "positions");
   lists_.organs().require_particles(x.size());
-  const NormalDensity<double, D, Ball> Z(settings_.spacing);
+  const NormalDensity<double, D, Kernel> Z(settings_.spacing);
   const auto state_of = [&](std::size_t organ, std::uint8_t role, const auto& wanted) {
     detail::OverlapParticles<D> state;
     for (const Index i : lists_.organs().particles_of(organ, role)) {
@@ -32,8 +32,8 @@ std::vector<Overlap> MetaballContact<S, D, Ball, Friction>::find_overlaps(const 
     const auto slaves = state_of(side.slaves, detail::is_slave, [&](Index i) { return pair.may_be_slave(i); });
     Overlap overlap{
         side.pair, lists_.organs().organs()[side.slaves].name, lists_.organs().organs()[side.masters].name, 0, 0, 0};
-    detail::find_overlap<D, Ball>(Z, slaves, state_of(side.masters, detail::is_master, all),
-                                  state_of(side.masters, detail::is_slave, all), pair.excluded, overlap);
+    detail::find_overlap<D, Kernel>(Z, slaves, state_of(side.masters, detail::is_master, all),
+                                    state_of(side.masters, detail::is_slave, all), pair.excluded, overlap);
     if (overlap.count > 0) found.push_back(overlap);
   }
   return found;

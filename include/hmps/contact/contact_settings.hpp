@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
@@ -16,8 +17,9 @@ struct ContactSettings {
   double friction = 0;                                        ///< mu_tan, \paper{23}; see also `PairSettings`.
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
   /// Normal damping as a fraction of the critical 2 sqrt(k rho); beyond the paper, which has none. It
-  /// is cut where it would reverse the closing velocity within a step.
-  double damping = 0;
+  /// is cut where it would reverse the closing velocity within a step. Where none is given, zero, or what the friction
+  /// law brings (`SpringFriction::damping`).
+  std::optional<double> damping = std::nullopt;
   double margin = 0.5;  ///< In spacings: how much motion the candidate lists bear before they are rebuilt.
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "hmps/contact/metaball.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
@@ -15,7 +17,7 @@ namespace hmps::inline HMPS_ABI {
 /// Lengths in m; `r` = r_ij = x_j - x_i. The kernel depends on |F_j^-1 r_ij|^2 = r_ij . A_j r_ij alone,
 /// with A_j = F_j^-T F_j^-1, so one product serves sum and gradient; a rotation of the master changes
 /// nothing, and rigid masters pass the identity.
-template <class S, int D, Metaball Ball = PaperMetaball>
+template <class S, int D, Metaball Kernel = PaperMetaball>
 class MasterSurface {
   using Quad = detail::Quad<S>;
 
@@ -34,8 +36,8 @@ class MasterSurface {
     for (int c = 1; c < D; ++c) y += A[c] * r[static_cast<std::size_t>(c)];
     const Quad product = r * y;
     const S s = (D == 3 ? product[0] + product[1] + product[2] : product[0] + product[1]) * over_radius_squared;
-    const S at = detail::cut_at_one<S>(s, y), c = S(Ball::value(at));
-    y = y * S(Ball::slope(at));
+    const S at = detail::cut_at_one<S>(s, y), c = S(Kernel::value(at));
+    y = y * S(Kernel::slope(at));
     y[3] = c;
     sum_ += y;
     return c;

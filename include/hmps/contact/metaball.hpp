@@ -9,16 +9,16 @@ namespace hmps::inline HMPS_ABI {
 
 /// The function that each particle of a wall spreads around itself. Valid expressions, with
 /// `s = (r / r_e)^2` in `[0, 1]` (the square, so that no root is taken per pair):
-/// - `Ball::radius`: the effective radius in spacings, `r_e / l0`;
-/// - `Ball::value(s)`: c, falling from a positive value at 0 to 0 at 1;
-/// - `Ball::slope(s)`: dc/ds, negative between.
+/// - `Kernel::radius`: the effective radius in spacings, `r_e / l0`;
+/// - `Kernel::value(s)`: c, falling from a positive value at 0 to 0 at 1;
+/// - `Kernel::slope(s)`: dc/ds, negative between.
 ///
 /// Satisfied by `PaperMetaball` and `SmoothMetaball`. Beyond `r_e` the caller takes zero.
-template <class Ball>
+template <class Kernel>
 concept Metaball = requires(double s) {
-  { Ball::radius } -> std::convertible_to<double>;
-  { Ball::value(s) } -> std::convertible_to<double>;
-  { Ball::slope(s) } -> std::convertible_to<double>;
+  { Kernel::radius } -> std::convertible_to<double>;
+  { Kernel::value(s) } -> std::convertible_to<double>;
+  { Kernel::slope(s) } -> std::convertible_to<double>;
 };
 
 /// c = 1 - (r / r_e)^2 with r_e = 1.75 l0, \paper{26}; c(0) = 1. The gradient of the sum jumps where

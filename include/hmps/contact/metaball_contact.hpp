@@ -19,6 +19,8 @@
 #include "hmps/contact/overlaps.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/contact/slave_contact.hpp"
+#include "hmps/contact/spring_friction.hpp"
+#include "hmps/contact/wall_motion.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
@@ -32,8 +34,8 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
-/// reactions and friction. A functor that keeps only the lists of candidates and the latest normals; positions,
-/// velocities and deformation gradients stay with the caller.
+/// reactions and friction. A functor that keeps only the lists of candidates, the latest normals and, for
+/// `SpringFriction`, elastic slip; positions, velocities and deformation gradients stay with the caller.
 ///
 /// Declare organs and the pairs that may touch, then in each step call
 /// `contact(x, v, F, dt, f)` with v = v* of \paper{2}; it ADDS the force density (N/m3) of \paper{43}
@@ -51,12 +53,14 @@ namespace hmps::inline HMPS_ABI {
 /// rounding each time that all organs together have travelled that far.
 /// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
 /// error of that.
-template <class S, int D, Metaball Ball = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
+template <class S, int D, Metaball Kernel = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
-  using Lists = detail::Candidates<S, D, Ball>;
+  using Lists = detail::Candidates<S, D, Kernel>;
   using Point = Vector<S, D>;
   using Tensor = Matrix<S, D>;
+  static constexpr bool has_spring = detail::has_spring<Friction>;
+  using Slip = std::conditional_t<has_spring, detail::ElasticSlip<S, D>, detail::NoSlip>;
 
  public:
   /// Throws `InputError` on settings that are not finite or out of range.
@@ -66,8 +70,8 @@ class MetaballContact {
     require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
             settings.density, " kg/m3; give a positive number");
     require_friction(settings.friction);
-    require(detail::is_finite(settings.damping) && settings.damping >= 0, "hmps: the contact damping is ",
-            settings.damping, "; give zero or a positive fraction of critical");
+    require(detail::is_finite(damping()) && damping() >= 0, "hmps: the contact damping is ", damping(),
+            "; give zero or a positive fraction of critical");
     require(detail::is_finite(settings.margin) && settings.margin > 0, "hmps: the margin of the contact lists is ",
             settings.margin, " spacings; give a positive number, such as 0.5");
   }
@@ -213,6 +217,7 @@ class MetaballContact {
   template <class X, class V, class G, class E>
   ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
 
+  [[nodiscard]] double damping() const { return settings_.damping.value_or(detail::damping_of<Friction>()); }
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
   static void require_friction(double mu) {
@@ -241,6 +246,7 @@ class MetaballContact {
   void weigh(const E& execute);
   template <class E>
   std::size_t push(double dt, const E& execute);
+  [[nodiscard]] Point follow(Index r, double dt);
   template <class Take, class E>
   void hand_out(const Take& take, const E& execute) const;
 
@@ -258,7 +264,8 @@ class MetaballContact {
   std::vector<Batch> batches_;
   std::vector<Index> suspect_;  // per batch of `gather`, the first awake particle with a number that is not finite
   std::vector<S> load_;         // per awake particle: N
-  detail::ContactHistory<D> history_;
+  detail::ContactHistory<D, Slip> history_;
+  [[no_unique_address]] std::conditional_t<has_spring, detail::ParticleMotion<S, D>, detail::NoSlip> motion_;
 };
 
 }  // namespace hmps::inline HMPS_ABI

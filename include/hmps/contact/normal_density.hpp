@@ -26,7 +26,7 @@ namespace hmps::inline HMPS_ABI {
 /// monotonically only near the surface: below `deepest()`, where its slope has dropped to a quarter
 /// of the steepest, it saturates and says nothing about depth. From there on the inverse stays at
 /// `deepest()` and flags the slave as deep.
-template <class S, int D, Metaball Ball = PaperMetaball>
+template <class S, int D, Metaball Kernel = PaperMetaball>
 class NormalDensity {
  public:
   /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite.
@@ -37,7 +37,7 @@ class NormalDensity {
     const double top = in_spacings(deepest_);
     table_.resize(nodes + 1);
     std::vector<double> distance(nodes + 1);
-    distance[0] = Ball::radius;
+    distance[0] = Kernel::radius;
     distance[nodes] = deepest_;
     for (std::size_t k = nodes - 1; k > 0; --k) {
       const double u = static_cast<double>(k) / static_cast<double>(nodes);
@@ -66,7 +66,7 @@ class NormalDensity {
   /// R_im = Z^-1(C_im), \paper{29}, for the sum `density` of metaballs. Never NaN: a sum of zero (or
   /// less, or NaN) is out of reach.
   [[nodiscard]] Distance inverse(S density) const {
-    if (!(density > 0)) return {spacing_ * static_cast<S>(Ball::radius), false, false};
+    if (!(density > 0)) return {spacing_ * static_cast<S>(Kernel::radius), false, false};
     if (density >= top_) return {spacing_ * static_cast<S>(deepest_), true, true};
     const S u = std::sqrt(std::sqrt(density * scale_)) * static_cast<S>(nodes);
     const std::size_t k = std::min(static_cast<std::size_t>(u), nodes - 1);
@@ -90,7 +90,7 @@ class NormalDensity {
 
   /// The metaballs of one layer `h` spacings away, integrated over the layer.
   [[nodiscard]] static double layer(double h) {
-    constexpr double radius = Ball::radius;
+    constexpr double radius = Kernel::radius;
     if (std::abs(h) >= radius) return 0;
     constexpr std::array<double, 4> x{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
     constexpr std::array<double, 4> w{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
@@ -103,7 +103,7 @@ class NormalDensity {
         const double node = q < 4 ? -x[3 - q] : x[q - 4], weight = q < 4 ? w[3 - q] : w[q - 4];
         const double a = reach * (p + 0.5 + 0.5 * node) / panels;
         const double measure = D == 3 ? 2 * 3.14159265358979323846 * a : 2;
-        sum += weight * 0.5 * reach / panels * measure * Ball::value((h * h + a * a) / (radius * radius));
+        sum += weight * 0.5 * reach / panels * measure * Kernel::value((h * h + a * a) / (radius * radius));
       }
     return sum;
   }
@@ -111,7 +111,7 @@ class NormalDensity {
   /// Z at `y` spacings.
   [[nodiscard]] static double in_spacings(double y) {
     double sum = 0;
-    for (double h = std::max(y, y + std::ceil(-Ball::radius - y)); h < Ball::radius; h += 1) sum += layer(h);
+    for (double h = std::max(y, y + std::ceil(-Kernel::radius - y)); h < Kernel::radius; h += 1) sum += layer(h);
     return sum;
   }
 
@@ -119,8 +119,8 @@ class NormalDensity {
 
   void find_deepest() {
     constexpr double step = 1. / 128;
-    double steepest = 0, y = Ball::radius;
-    for (; y > -Ball::radius; y -= step) {
+    double steepest = 0, y = Kernel::radius;
+    for (; y > -Kernel::radius; y -= step) {
       const double s = slope(y);
       steepest = std::min(steepest, s);
       if (s > 0.25 * steepest && y < 0) break;
@@ -132,7 +132,7 @@ class NormalDensity {
   /// The y between `low` and the reach at which Z is `density`: secant steps from `low`, bisection
   /// where they leave the bracket.
   [[nodiscard]] static double solve(double density, double low) {
-    double high = Ball::radius, at_low = in_spacings(low) - density, at_high = -density, y = low;
+    double high = Kernel::radius, at_low = in_spacings(low) - density, at_high = -density, y = low;
     for (int i = 0; i < 60 && high - low > 1e-13; ++i) {
       y = i % 3 == 2 ? 0.5 * (low + high) : low - at_low * (high - low) / (at_high - at_low);
       const double value = in_spacings(y) - density;

@@ -70,12 +70,12 @@ template <int D>
 /// `skin` (empty if unknown). Near the surface the depth is the penetration of \paper{38}; further in, where metaballs
 /// tell nothing, it is a spacing more than what the slave lies behind the nearest particle of the skin, if that is less
 /// than `deepest` spacings away.
-template <int D, Metaball Ball>
-HMPS_COLD void find_overlap(const NormalDensity<double, D, Ball>& Z, const OverlapParticles<D>& slaves,
+template <int D, Metaball Kernel>
+HMPS_COLD void find_overlap(const NormalDensity<double, D, Kernel>& Z, const OverlapParticles<D>& slaves,
                             const OverlapParticles<D>& masters, const OverlapParticles<D>& skin,
                             const std::function<bool(Index, Index)>& excluded, Overlap& overlap) {
   constexpr double deepest = 4;
-  const double l0 = Z.spacing(), radius = Ball::radius * l0;
+  const double l0 = Z.spacing(), radius = Kernel::radius * l0;
   std::vector<Matrix<double, D>> B, A;
   double widest = 0;
   for (const Matrix<double, D>& F : masters.F) {
@@ -90,7 +90,7 @@ HMPS_COLD void find_overlap(const NormalDensity<double, D, Ball>& Z, const Overl
 
   for (std::size_t i = 0; i < slaves.x.size(); ++i) {
     const auto meets = [&](Index particle) { return !(excluded && excluded(slaves.particle[i], particle)); };
-    MasterSurface<double, D, Ball> surface;
+    MasterSurface<double, D, Kernel> surface;
     std::vector<Index> reaching;
     near_masters.visit(slaves.x[i], widest, [&](Index j, double) {
       if (all_finite(A[j]) && meets(masters.particle[j])) reaching.push_back(j);

@@ -72,7 +72,7 @@ template <class S, int D>
 
 /// What share of rho v_tan / dt a sticking slave takes in one step. `needs_load`: whether the contact
 /// must first gather how much each particle is acted upon. `share(load)` gets the sum described at
-/// `CorrectedFriction`, and returns the share.
+/// `CorrectedFriction`, and returns the share. A law may bring `has_spring` and `damping` too: see `SpringFriction`.
 template <class Law>
 concept FrictionLaw = requires(double load) {
   { Law::needs_load } -> std::convertible_to<bool>;

@@ -52,15 +52,15 @@ struct SlaveContact {
 /// Evaluates a slave at `place` (m) against `wall`. Writes the normal n_m to `normal` if the wall is within reach, and
 /// the metaballs c_ij of all masters to `c`. `gradient()` returns F_i and `velocity()` v_i in m/s; they are asked for
 /// where they are needed, which for most slaves is never. `compression` bounds the inverse of the stretch from above.
-template <class S, int D, Metaball Ball, class Gradient, class Velocity>
-[[nodiscard]] HMPS_INLINE SlaveContact<S, D> slave_contact(const NormalDensity<S, D, Ball>& Z, const Quad<S>& place,
+template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
+[[nodiscard]] HMPS_INLINE SlaveContact<S, D> slave_contact(const NormalDensity<S, D, Kernel>& Z, const Quad<S>& place,
                                                            const Wall<S, D>& wall, S compression, Gradient&& gradient,
                                                            Velocity&& velocity, Vector<S, D>& normal, S* c) {
-  const S l0 = Z.spacing(), radius = static_cast<S>(Ball::radius) * l0;
+  const S l0 = Z.spacing(), radius = static_cast<S>(Kernel::radius) * l0;
   const S over_radius_squared = S(1) / (radius * radius);
   SlaveContact<S, D> contact;
 
-  MasterSurface<S, D, Ball> surface;
+  MasterSurface<S, D, Kernel> surface;
   for (std::size_t k = 0; k < wall.size; ++k) {
     const Master<S, D>& master = wall.masters[wall.number[k]];
     Quad<S> towards = master.x;

@@ -13,7 +13,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The signed distance to a triangle surface, as a shape: `fill_lattice(shape, box, ...)`, `RaisedSkin`, the
+/// The signed distance to a triangle surface, as a shape: `fill_lattice(shape, box, ...)`, `SurfaceCorrection`, the
 /// combinators and everything else that takes a shape thus takes a mesh.
 ///
 ///     const MeshDistance<double> organ(read_surface<double>("organ.stl", 1e-3));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 namespace {
 
 using History = hmps::detail::ContactHistory<3>;
@@ -37,5 +39,24 @@ TEST(ContactHistory, TakesTheSideOfASlaveThatIsNotInside) {
   history.next_call();
   EXPECT_FALSE(history.turned_round(0, down, true)) << "its side is the other one since";
 }
+
+TEST(ContactHistory, KeepsElasticSlipWhileTheSlaveTouches) {
+  hmps::detail::ContactHistory<3, hmps::detail::ElasticSlip<double, 3>> history;
+  history.resize(2);
+  (void)history.turned_round(0, up, false);
+  EXPECT_TRUE(history.slip(0).starts);
+  history.slip(0) = {hmps::Vector<double, 3>(1, 2, 3), false};
+  history.next_call();
+  (void)history.turned_round(0, up, false);
+  EXPECT_FALSE(history.slip(0).starts);
+  EXPECT_EQ(history.slip(0).value, (hmps::Vector<double, 3>(1, 2, 3)));
+  history.next_call();
+  history.next_call();
+  (void)history.turned_round(0, up, false);
+  EXPECT_TRUE(history.slip(0).starts) << "it was off the wall for a call";
+  EXPECT_EQ(history.slip(0).value, (hmps::Vector<double, 3>(0, 0, 0)));
+}
+
+static_assert(std::is_empty_v<hmps::detail::NoSlip>, "friction without a spring takes no memory");
 
 }  // namespace

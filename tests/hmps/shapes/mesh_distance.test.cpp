@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "hmps/contact/raised_skin.hpp"
+#include "hmps/contact/surface_correction.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/combine.hpp"
@@ -55,7 +55,7 @@ TYPED_TEST(MeshDistance, FillsAndRaisesAsShapesDo) {
   std::vector<hmps::Index> skin;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (shape(points[i]) > -l0) skin.push_back(static_cast<hmps::Index>(i));
-  const hmps::RaisedSkin<S, 3> raised(hmps::vectors(points), std::span<const hmps::Index>(skin), shape, l0);
+  const hmps::SurfaceCorrection<S, 3> raised(hmps::vectors(points), std::span<const hmps::Index>(skin), shape, l0);
   // Half a spacing below the sphere, of which the triangles fall short by 0.4 % of the radius at most.
   for (std::size_t k = 0; k < skin.size(); ++k)
     EXPECT_NEAR((points[skin[k]] + raised.offsets()[k]).norm(), S(0.01) - l0 / 2, S(1e-4));

@@ -68,7 +68,7 @@ template <class T, int D>
 ///
 /// The particles of all organs are numbered once each, in the order of their indices; a member is such
 /// a particle in one organ. A row is a slave of one side (an ordered pair of organs).
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 class Candidates {
  public:
   using Point = Vector<S, D>;
@@ -76,7 +76,7 @@ class Candidates {
 
   /// `spacing` and `margin` in m.
   Candidates(S spacing, S margin)
-      : normal_density_(spacing), radius_(static_cast<S>(Ball::radius) * spacing), margin_(margin) {}
+      : normal_density_(spacing), radius_(static_cast<S>(Kernel::radius) * spacing), margin_(margin) {}
 
   std::size_t add_organ(const Organ& organ) {
     const std::size_t added = organs_.add_organ(organ);
@@ -92,7 +92,7 @@ class Candidates {
   [[nodiscard]] const OrganPairs& organs() const { return organs_; }
   /// What is to be evaluated: the rows that are awake.
   [[nodiscard]] const ActiveRows<S>& active() const { return active_; }
-  [[nodiscard]] const NormalDensity<S, D, Ball>& normal_density() const { return normal_density_; }
+  [[nodiscard]] const NormalDensity<S, D, Kernel>& normal_density() const { return normal_density_; }
   /// How often the grid search ran, how often all was measured, and how often that found a change beyond what was
   /// allowed for.
   [[nodiscard]] std::size_t rebuilds() const { return rebuilds_; }
@@ -173,7 +173,7 @@ class Candidates {
   void wake(Index particle, S moved_squared);
   void select();
 
-  NormalDensity<S, D, Ball> normal_density_;
+  NormalDensity<S, D, Kernel> normal_density_;
   S radius_, margin_;
   Vector<double, D> origin_ = Vector<double, D>::Zero();  // in m: from where places are measured
   OrganPairs organs_;

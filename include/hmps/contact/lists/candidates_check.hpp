@@ -7,8 +7,8 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Numbers the particles of all organs once each, and cuts the members into chunks.
-template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::number() {
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::number() {
   organs_.number_particles();
   const std::size_t count = particle().size();
   place_.assign(count, Point::Zero());
@@ -30,9 +30,9 @@ void Candidates<S, D, Ball>::number() {
 }
 
 /// Builds the broad-phase list from the places and reaches of the latest check.
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class E>
-void Candidates<S, D, Ball>::build(const E& execute) {
+void Candidates<S, D, Kernel>::build(const E& execute) {
   built_place_ = place_;
   built_reach_ = reach_;
   motion_.assign(motion_.size(), OrganMotion{Point::Zero(), 0, 0});
@@ -43,9 +43,9 @@ void Candidates<S, D, Ball>::build(const E& execute) {
   ++rebuilds_;
 }
 
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class X, class Gradients, class E>
-bool Candidates<S, D, Ball>::update(const X& x, const Gradients& F, const E& execute) {
+bool Candidates<S, D, Kernel>::update(const X& x, const Gradients& F, const E& execute) {
   active_work_ += newly_active_;
   const std::size_t active_before = newly_active_;
   if (!built_ || ++age_ >= interval_ || active_work_ > cost_of_check() || !watch(x, execute)) {
@@ -57,9 +57,9 @@ bool Candidates<S, D, Ball>::update(const X& x, const Gradients& F, const E& exe
   return true;
 }
 
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class X, class Gradients, class E>
-void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& execute) {
+void Candidates<S, D, Kernel>::check(const X& x, const Gradients& F, const E& execute) {
   if (parts_.empty()) {
     number();
     built_ = false;
@@ -114,16 +114,16 @@ void Candidates<S, D, Ball>::check(const X& x, const Gradients& F, const E& exec
 }
 
 /// How much of its limit a side has used up since the broad-phase list was built.
-template <class S, int D, Metaball Ball>
-S Candidates<S, D, Ball>::used(std::size_t side) const {
+template <class S, int D, Metaball Kernel>
+S Candidates<S, D, Kernel>::used(std::size_t side) const {
   const OrganMotion &a = motion_[sides()[side].slaves], &b = motion_[sides()[side].masters];
   return a.motion + b.motion + (a.moved - b.moved).norm() + b.growth;
 }
 
 /// Place, reach and strain of every particle. True if some strain has changed by more than was allowed for.
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class X, class Gradients, class E>
-bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& execute) {
+bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(chunk % width == 0);
   execute(watches_.size(), [&](std::size_t q) {
@@ -177,9 +177,9 @@ bool Candidates<S, D, Ball>::measure(const X& x, const Gradients& F, const E& ex
 /// Moves the origin to the middle of the particles where they lie so far from it that `S` resolves their distances only
 /// to 1e-4 spacings or worse, which for float is beyond about a thousand spacings. Only before lists are built, and
 /// never where `S` is as wide as the scalars of `x`.
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class X>
-void Candidates<S, D, Ball>::choose_origin(const X& x) {
+void Candidates<S, D, Kernel>::choose_origin(const X& x) {
   if constexpr (sizeof(typename X::Scalar) > sizeof(S)) {
     const double reach = static_cast<double>(normal_density_.spacing()) * 1.25e-4 /
                          static_cast<double>(std::numeric_limits<S>::epsilon());
@@ -197,9 +197,9 @@ void Candidates<S, D, Ball>::choose_origin(const X& x) {
 
 /// Throws where F has no inverse for another reason than that its particle is squashed flat: a `StateError` or, where
 /// nothing has been written to it, an `InputError`.
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class Gradients>
-void Candidates<S, D, Ball>::check_flat(const Gradients& F) const {
+void Candidates<S, D, Kernel>::check_flat(const Gradients& F) const {
   for (std::size_t q = 0; q < watches_.size(); ++q) {
     if (watches_[q].flat == none) continue;
     for (std::size_t i = watches_[q].flat; i < std::min(particle().size(), (q + 1) * chunk); ++i)
@@ -208,9 +208,9 @@ void Candidates<S, D, Ball>::check_flat(const Gradients& F) const {
 }
 
 /// How far the organs have moved since the broad-phase list was built.
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class E>
-void Candidates<S, D, Ball>::measure_organs(const E& execute) {
+void Candidates<S, D, Kernel>::measure_organs(const E& execute) {
   execute(parts_.size(), [&](std::size_t q) {
     Part& part = parts_[q];
     const Point shift = motion_[part.organ].moved;
@@ -247,8 +247,8 @@ void Candidates<S, D, Ball>::measure_organs(const E& execute) {
   }
 }
 
-template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::fail(const OrganPairs::OrganRange& organ) const {
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::fail(const OrganPairs::OrganRange& organ) const {
   for (std::size_t m = organ.begin; m < organ.end; ++m)
     for (int c = 0; c < D; ++c)
       if (const S place = place_[members()[m].number][c]; !is_finite(place))
@@ -260,8 +260,8 @@ void Candidates<S, D, Ball>::fail(const OrganPairs::OrganRange& organ) const {
 }
 
 /// Makes the list of the rows that are awake.
-template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::select() {
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::select() {
   active_.clear();
   for (const Row& row : broad_.rows()) {
     if (row.rest > S(0) || row.kept <= row.begin) continue;

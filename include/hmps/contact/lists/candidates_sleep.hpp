@@ -10,9 +10,9 @@ namespace hmps::inline HMPS_ABI::detail {
 /// An upper bound until the next check of |F_i^T n| max |F_j^-1 n| over the masters kept for `row`: the distance R_im,
 /// less half a spacing and over as much, at which its slave touches. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a
 /// normal that turns by t changes them by t times the largest stretch.
-template <class S, int D, Metaball Ball>
-S Candidates<S, D, Ball>::widest(const Row& row) {
-  MasterSurface<S, D, Ball> surface;
+template <class S, int D, Metaball Kernel>
+S Candidates<S, D, Kernel>::widest(const Row& row) {
+  MasterSurface<S, D, Kernel> surface;
   for (Index k = row.begin; k < row.kept; ++k) {
     const Index j = kept_master_[k];
     surface.reach(metric_[j], place_[j] - place_[row.slave], S(1) / (radius_ * radius_));
@@ -45,8 +45,8 @@ S Candidates<S, D, Ball>::widest(const Row& row) {
 /// Keeps the masters of row `r` that could be within reach before the next check, and tells how
 /// long it may rest: C is bounded from above with every master as near as it comes if both drift on, and nearer by what
 /// both may move beside that. With B for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
-template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::put_to_sleep(std::size_t r) {
   Row& row = broad_.rows()[r];
   const Point place = place_[row.slave];
   constexpr std::size_t levels = 3;
@@ -69,7 +69,7 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
     row.compression = std::max(row.compression, strain * compression_[j]);
     for (std::size_t q = 0; q < levels; ++q, nearer *= S(0.5)) {
       const S nearest = std::max(S(0), distance - nearer);
-      density[q] += Ball::value(std::min(S(1), nearest * nearest));
+      density[q] += Kernel::value(std::min(S(1), nearest * nearest));
     }
   }
   const S l0 = normal_density_.spacing();
@@ -95,9 +95,9 @@ void Candidates<S, D, Ball>::put_to_sleep(std::size_t r) {
 
 /// Wakes the rows of what has moved too far since the check. False if something has moved so far, or is
 /// not finite, that a new check is due.
-template <class S, int D, Metaball Ball>
+template <class S, int D, Metaball Kernel>
 template <class X, class E>
-bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
+bool Candidates<S, D, Kernel>::watch(const X& x, const E& execute) {
   const auto moved_squared = [&](std::size_t i) { return (place_of(x, particle()[i]) - expected(i)).squaredNorm(); };
   execute(watches_.size(), [&](std::size_t q) {
     Watch found{0, false, false};
@@ -117,8 +117,8 @@ bool Candidates<S, D, Ball>::watch(const X& x, const E& execute) {
 }
 
 /// Wakes the rows that must not sleep any more now that one of their particles has moved so far.
-template <class S, int D, Metaball Ball>
-void Candidates<S, D, Ball>::wake(Index particle, S moved_squared) {
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::wake(Index particle, S moved_squared) {
   S& allowance = allowance_[particle] = bound_[particle] * bound_[particle];
   for (Index q = broad_.rows_of_begin(particle); q < broad_.rows_of_begin(particle + 1); ++q) {
     Row& row = broad_.rows()[broad_.rows_of()[q]];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hmps/contact/raised_skin.hpp"
+#include "hmps/contact/surface_correction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,14 +14,14 @@ namespace {
 using hmps::Index;
 
 template <class Case>
-class RaisedSkinTest : public ::testing::Test {};
+class SurfaceCorrectionTest : public ::testing::Test {};
 template <class S_, int D_>
 struct Kind {
   using S = S_;
   static constexpr int D = D_;
 };
 using Kinds = ::testing::Types<Kind<double, 3>, Kind<double, 2>, Kind<float, 3>>;
-TYPED_TEST_SUITE(RaisedSkinTest, Kinds);
+TYPED_TEST_SUITE(SurfaceCorrectionTest, Kinds);
 
 /// The particles of a square or cubic lattice in a ball about the origin, and the outermost of them.
 template <class S, int D>
@@ -49,11 +49,11 @@ struct Lattice {
   }
 };
 
-TYPED_TEST(RaisedSkinTest, LiesHalfASpacingBelowTheSurfaceAndTheRestStays) {
+TYPED_TEST(SurfaceCorrectionTest, LiesHalfASpacingBelowTheSurfaceAndTheRestStays) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;
   const Lattice<S, D> body;
-  const hmps::RaisedSkin<S, D> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
+  const hmps::SurfaceCorrection<S, D> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
   const std::vector<hmps::Matrix<S, D>> F(body.x.size(), hmps::Matrix<S, D>::Identity());
   auto places = body.x;
   raised(hmps::vectors(body.x), hmps::matrices(F), hmps::vectors(places));
@@ -73,11 +73,11 @@ TYPED_TEST(RaisedSkinTest, LiesHalfASpacingBelowTheSurfaceAndTheRestStays) {
 }
 
 /// Turned and stretched, the raised places turn and stretch along: they are material points.
-TYPED_TEST(RaisedSkinTest, FollowsTheBody) {
+TYPED_TEST(SurfaceCorrectionTest, FollowsTheBody) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;
   const Lattice<S, D> body;
-  const hmps::RaisedSkin<S, D> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
+  const hmps::SurfaceCorrection<S, D> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
   hmps::Matrix<S, D> A = hmps::Matrix<S, D>::Identity();
   A(0, 0) = S(0.6);
   A(0, 1) = S(-1.6);
@@ -92,9 +92,9 @@ TYPED_TEST(RaisedSkinTest, FollowsTheBody) {
     EXPECT_LT((after[i] - A * before[i]).norm(), S(20) * body.radius * std::numeric_limits<S>::epsilon());
 }
 
-TEST(RaisedSkin, WritesNowhereElseThanInTheViews) {
+TEST(SurfaceCorrection, WritesNowhereElseThanInTheViews) {
   const Lattice<double, 3> body;
-  const hmps::RaisedSkin<double, 3> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
+  const hmps::SurfaceCorrection<double, 3> raised(hmps::vectors(body.x), body.skin, body.ball, body.l0);
   std::vector<hmps::Matrix<double, 3>> F(body.x.size(), hmps::Matrix<double, 3>::Identity());
   auto places = body.x;
   const auto x = hmps::vectors(body.x);
@@ -108,10 +108,10 @@ TEST(RaisedSkin, WritesNowhereElseThanInTheViews) {
       raised(x.part(0, few + 1), hmps::matrices(F).part(0, few + 1), hmps::vectors(places).part(0, few + 1)));
 }
 
-TEST(RaisedSkin, SaysWhatIsWrong) {
+TEST(SurfaceCorrection, SaysWhatIsWrong) {
   const Lattice<double, 3> body;
   const auto make = [&](std::vector<Index> skin, auto shape, double spacing) {
-    (void)hmps::RaisedSkin<double, 3>(hmps::vectors(body.x), skin, shape, spacing);
+    (void)hmps::SurfaceCorrection<double, 3>(hmps::vectors(body.x), skin, shape, spacing);
   };
   EXPECT_NO_THROW(make(body.skin, body.ball, body.l0));
   EXPECT_THROW(make(body.skin, body.ball, 0), hmps::InputError);

@@ -29,7 +29,7 @@ namespace hmps::inline HMPS_ABI {
 ///
 ///     raised(x, F, places);   contact(places, v, F, dt, f);
 template <class S, int D>
-class RaisedSkin {
+class SurfaceCorrection {
  public:
   /// @param reference  reference positions in m
   /// @param skin       the outermost particles: the slaves of the organ
@@ -38,9 +38,9 @@ class RaisedSkin {
   /// Throws `InputError` for a particle that does not exist or lies further than 1.5 spacings from where it should,
   /// and where the shape does not tell which way is out.
   template <class T, class Shape>
-  RaisedSkin(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
+  SurfaceCorrection(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
-    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a raised skin is ", spacing,
+    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
             " m; give the particles' positive distance in the reference configuration");
     for (const Index i : skin_) {
       require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
@@ -83,7 +83,7 @@ class RaisedSkin {
   void operator()(const VectorView<X, D>& x, const MatrixView<M, D>& F, const VectorView<P, D>& places,
                   const E& execute = {}) const {
     require_size(x, x.size(), "positions");
-    require(x.size() >= particles_, "hmps: particle ", particles_ - 1, " is of the raised skin but the views hold ",
+    require(x.size() >= particles_, "hmps: particle ", particles_ - 1, " has a corrected surface but the views hold ",
             x.size(), " particles; give views of all particles, as the reference positions were");
     require_size(F, x.size(), "deformation gradients");
     require_size(places, x.size(), "places for contact");

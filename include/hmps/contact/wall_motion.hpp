@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/inline.hpp"
+#include "hmps/core/math.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/lanes/quad.hpp"
+
+namespace hmps::inline HMPS_ABI::detail {
+
+/// How a wall moves at a slave: the rigid motion that fits that of its masters best, by least squares with their
+/// weights. The mean of the masters' motion, \paper{31}, is that at their middle, half a spacing and more behind the
+/// surface, and differs from that at the slave where the wall turns.
+template <class S, int D>
+class WallMotion {
+ public:
+  using Point = Vector<S, D>;
+  using Tensor = Matrix<S, D>;
+
+  /// `spacing` in m.
+  explicit WallMotion(S spacing) : spacing_(spacing) {}
+  /// Adds a master of weight `w` (they sum to 1) at `r` from the slave, in spacings, which moves by `moved` (m); zeros
+  /// behind. `r` is that in the middle of the motion, so that turning is exact at any angle.
+  HMPS_INLINE void add(S w, const Quad<S>& r, const Quad<S>& moved) {
+    const Quad<S> weighted = r * w;
+    middle_ += weighted;
+    mean_ += moved * w;
+    for (std::size_t c = 0; c < D; ++c) {
+      squares_[c] += weighted * r[c];
+      products_[c] += weighted * moved[c];
+    }
+  }
+  /// Completes the sums; call it before the functions below.
+  void finish() {
+    const Point middle = first<D, S>(middle_), mean = first<D, S>(mean_);
+    Tensor squares, products;  // sum w r (x) r and sum w r (x) u about the middle
+    for (int c = 0; c < D; ++c) {
+      squares.col(c) = first<D, S>(squares_[static_cast<std::size_t>(c)]) - middle[c] * middle;
+      products.col(c) = first<D, S>(products_[static_cast<std::size_t>(c)]) - mean[c] * middle;
+    }
+    // Masters on a line, or one alone, do not tell all rotations: a little more than rounding keeps the inverse finite.
+    const S size = squares.trace() + S(100) * std::numeric_limits<S>::epsilon();
+    const Tensor moment = products.transpose() - products;
+    if constexpr (D == 2) {
+      spin_ = moment / size;
+    } else {
+      const Tensor inertia = Tensor::Identity() * size - squares;
+      const Point angle = inverse<S, D>(inertia) * Point(moment(2, 1), moment(0, 2), moment(1, 0));
+      spin_ << S(0), -angle[2], angle[1], angle[2], S(0), -angle[0], -angle[1], angle[0], S(0);
+    }
+  }
+
+  /// What the wall moves at the slave, in m: the mean of its masters and what comes of its turning.
+  [[nodiscard]] Point moved() const { return first<D, S>(mean_) + by_turning(); }
+  [[nodiscard]] Point by_turning() const { return -(spin_ * first<D, S>(middle_)); }
+  /// `vector` turned as the wall turns, of the same length.
+  [[nodiscard]] Point turned(const Point& vector) const {
+    const Point once = spin_ * vector / spacing_;
+    return scaled(vector + once + S(0.5) / spacing_ * (spin_ * once), vector.norm());
+  }
+  /// The part of `vector` across the unit vector `n`, lengthened to the length of `vector`.
+  [[nodiscard]] static Point across(const Point& vector, const Point& n) {
+    return scaled(vector - vector.dot(n) * n, vector.norm());
+  }
+
+ private:
+  [[nodiscard]] static Point scaled(const Point& vector, S length) {
+    const S own = vector.norm();
+    return own > S(0) ? Point(vector * (length / own)) : vector;
+  }
+
+  S spacing_;
+  Quad<S> middle_{}, mean_{}, squares_[std::size_t{D}] = {}, products_[std::size_t{D}] = {};
+  Tensor spin_ = Tensor::Zero();  // W of u = W r, in m for r in spacings
+};
+
+/// How far the particles of all organs have moved since the call before, whoever moved them.
+template <class S, int D>
+class ParticleMotion {
+ public:
+  /// The particles `awake` of all `particle`; both ascend.
+  template <class Awake>
+  void choose(const std::vector<Index>& particle, const std::vector<Awake>& awake) {
+    number_.clear();
+    std::size_t n = 0;
+    for (std::size_t t = 0; t + 1 < awake.size(); ++t) {
+      while (particle[n] != awake[t].particle) ++n;
+      number_.push_back(static_cast<Index>(n));
+    }
+  }
+  /// Takes the positions `x` (m) of this call. Those of the call before are zero where there was none.
+  template <class X, class E>
+  void update(const X& x, const std::vector<Index>& particle, const E& execute) {
+    const bool known = place_.size() == particle.size();
+    place_.resize(particle.size(), Vector<double, D>::Zero());
+    moved_.resize(particle.size());
+    execute((particle.size() + chunk - 1) / chunk, [&](std::size_t q) {
+      for (std::size_t n = q * chunk; n < std::min(particle.size(), (q + 1) * chunk); ++n) {
+        const Vector<double, D> place = x[particle[n]].template cast<double>();
+        spread<S>(known ? (place - place_[n]).template cast<S>().eval() : Vector<S, D>::Zero().eval(), moved_[n]);
+        place_[n] = place;
+      }
+    });
+  }
+  /// In m, of an awake particle.
+  [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }
+  /// From the awake particle `from` to `to`, in m.
+  [[nodiscard]] Vector<S, D> between(std::size_t from, std::size_t to) const {
+    return (place_[number_[to]] - place_[number_[from]]).template cast<S>();
+  }
+
+ private:
+  static constexpr std::size_t chunk = 512;
+  std::vector<Vector<double, D>> place_;  // of all particles, at the latest call
+  std::vector<Quad<S>> moved_;
+  std::vector<Index> number_;  // per awake particle, among all
+};
+
+}  // namespace hmps::inline HMPS_ABI::detail

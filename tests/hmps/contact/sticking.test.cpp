@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Friction with a spring in the whole contact: what it remembers, and how that turns.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "bodies.hpp"
+#include "hmps/contact/contact.hpp"
+
+namespace {
+
+using hmps::Index;
+using Contact = hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::SpringFriction>;
+using Point = hmps::Vector<double, 3>;
+
+constexpr double l0 = 1e-3, density = 1000, dt = 1e-5;
+
+/// A block pressed a tenth of a spacing into a plate and shoved along it, both at rest after that.
+struct Shoved {
+  bodies::Pile<double, 3> pile{0.9, l0};
+  Contact contact{{.spacing = l0, .density = density, .friction = 1}};
+  Point before;
+  explicit Shoved(double by = 1e-3 * l0) {
+    pile.declare(contact);
+    pile.apply(contact, dt);
+    before = pushed();
+    for (int step = 0; step < 10; ++step) {
+      for (const Index i : pile.block.all) pile.x[i][0] += by / 10;
+      pile.apply(contact, dt);
+    }
+  }
+  /// Force density on the block, summed.
+  [[nodiscard]] Point pushed() const {
+    Point sum = Point::Zero();
+    for (const Index i : pile.block.all) sum += pile.f[i];
+    return sum;
+  }
+};
+
+/// Nothing moves, but friction holds: a spring of stiffness k in each contact, which a law of the velocity is not. At
+/// the rim normals are inclined, by up to 0.3, whose square is the share that is left out.
+TEST(Sticking, HoldsWithoutASlip) {
+  Shoved scene;
+  const std::size_t contacts = scene.pile.apply(scene.contact, dt).contacts;
+  const double k = 0.3 * density / (dt * dt), whole = static_cast<double>(contacts) * k * 1e-3 * l0;
+  const Point force = scene.pushed() - scene.before;
+  EXPECT_NEAR(-force[0], whole, 0.1 * whole);
+  const auto once = scene.pile.f;
+  scene.pile.apply(scene.contact, dt);
+  EXPECT_EQ(once, scene.pile.f) << "to evaluate the same state twice changes nothing";
+}
+
+/// Both bodies turn as one, as fast as they say they do: the force turns with them. A mean of the masters' motion would
+/// see them slide, since its place is more than half a spacing below the slave: by 0.5 spacings here, 500 times the
+/// elastic slip. Left are the third order of the turn of the spring, 1e-9 / 6 of it in each of 1000 steps, and the
+/// second in the velocities, which are those at the end of a step: 2e-4 of the spring's force.
+TEST(Sticking, TurnsWithTheWall) {
+  Shoved scene;
+  const auto before = scene.pile.f;
+  const double angle = 1e-3;
+  const Point axis(0.6, -0.48, 0.64), centre(5 * l0, 3 * l0, 0);
+  const hmps::Matrix<double, 3> R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  hmps::Matrix<double, 3> all = hmps::Matrix<double, 3>::Identity();
+  for (int step = 0; step < 1000; ++step) {
+    for (std::size_t i = 0; i < scene.pile.x.size(); ++i) {
+      const Point from = scene.pile.x[i] - centre;
+      scene.pile.x[i] = centre + R * from;
+      scene.pile.v[i] = angle / dt * axis.cross(scene.pile.x[i] - centre);
+    }
+    all = R * all;
+    scene.pile.apply(scene.contact, dt);
+  }
+  double largest = 0, off = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    largest = std::max(largest, before[i].norm());
+    off = std::max(off, (all * before[i] - scene.pile.f[i]).norm());
+  }
+  const double friction = 0.3 * density / (dt * dt) * 1e-3 * l0;  // of one contact
+  EXPECT_LT(off, 1e-3 * friction);
+  EXPECT_GT(largest, friction);
+}
+
+/// Off the wall for one call, or refreshed: no elastic slip is left.
+TEST(Sticking, ForgetsWhereContactIsLost) {
+  Shoved scene;
+  scene.contact.refresh();
+  scene.pile.apply(scene.contact, dt);
+  // What is left is the change of the normals over a thousandth of a spacing.
+  EXPECT_LT((scene.pushed() - scene.before).norm(), 1e-2 * scene.before.norm());
+  Shoved lifted;
+  for (const double up : {0.5 * l0, -0.5 * l0}) {
+    for (const Index i : lifted.pile.block.all) lifted.pile.x[i][2] += up;
+    lifted.pile.apply(lifted.contact, dt);
+  }
+  EXPECT_LT((lifted.pushed() - scene.pushed()).norm(), 1e-9 * scene.before.norm());
+}
+
+/// Shoved further than the elastic slip of the limit: mu times the normal force, in both roles, but for what inclined
+/// normals push aside.
+TEST(Sticking, SlidesAtTheLimit) {
+  Shoved scene(0.5 * l0);
+  const Point stuck = scene.pushed();
+  scene.contact.refresh();
+  EXPECT_EQ(scene.pile.apply(scene.contact, dt).sticking, scene.pile.apply(scene.contact, dt).contacts);
+  const Point force = stuck - scene.pushed();
+  EXPECT_NEAR(-force[0], stuck[2], 0.1 * stuck[2]);
+}
+
+TEST(Sticking, HasTheSameBitsInAnyOrder) {
+  const hmps::ContactSettings with_friction{.spacing = l0, .density = density, .friction = 0.3};
+  bodies::Pile<double, 3> pile(1.1, l0);
+  pile.shake(0.05, 0.03, 4);
+  Contact serial(with_friction), reversed(with_friction);
+  for (Contact* contact : {&serial, &reversed}) pile.declare(*contact);
+  std::size_t sticking = 0, contacts = 0;
+  for (int step = 0; step < 60; ++step) {
+    for (const Index i : pile.block.all) pile.x[i] += Point(2e-7, 1e-7, -4e-6);
+    const auto report = pile.apply(serial, dt);
+    sticking += report.sticking, contacts += report.contacts;
+    const auto bits = pile.f;
+    pile.apply(reversed, dt, bodies::Loops{.backwards = true});
+    ASSERT_EQ(bits, pile.f) << "step " << step;
+  }
+  EXPECT_GT(contacts, sticking);
+  EXPECT_GT(contacts, 100U);
+}
+
+}  // namespace
