@@ -3,26 +3,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <hmps/executors/openmp.hpp>
 #include <ostream>
+#include <string>
 #include <thread>
+
+#include "../common/arguments.hpp"
 
 namespace swallowing {
 
-namespace {
+using examples::whole_within;
+using examples::within;
 
-/// A finite number within [low, high], with a message that tells the unit.
-[[nodiscard]] CLI::Validator within(double low, double high, const std::string& what) {
-  return CLI::Validator(
-      [=](std::string& text) -> std::string {
-        double value = 0;
-        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) return "'" + text + "' is not a number";
-        return value >= low && value <= high ? std::string() : what + " (" + text + " was given)";
-      },
-      "");
+std::filesystem::path data_folder(const Options& options) {
+  return options.data.empty() ? SWALLOWING_DATA : options.data;
 }
-
-}  // namespace
 
 std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                                      int& exit_code) {
@@ -71,7 +66,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
       ->check(CLI::IsMember({"float", "double"}));
   app.add_option("--threads", options.threads, "number of threads (default: all cores); results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->transform(whole_within(1, hmps::OpenMP::most_threads(),
+                               "the number of threads must lie between 1 and " +
+                                   std::to_string(hmps::OpenMP::most_threads()) +
+                                   ", four for each processor here: more only wait for each other"));
   app.add_option("--out", options.out, "output folder (default: results)")->type_name("DIR");
   app.add_flag("--resume", options.resume, "continue from the last checkpoints in the output folder, to the same bits");
   app.add_flag("--no-frames", no_frames, "write no frames for ParaView");

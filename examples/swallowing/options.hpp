@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -49,6 +50,9 @@ struct Options {
   std::string data;              ///< folder of the motion tracks; empty: those of the example
   bool resume = false;
 };
+
+/// The folder of the tracks of the motion: that of the example, unless the options name another.
+[[nodiscard]] std::filesystem::path data_folder(const Options& options);
 
 /// Reads the command line. Gives nothing when the program is to end at once with `exit_code`: 0 after
 /// --help, 2 after a mistake, which is explained on `err`.

@@ -26,6 +26,7 @@ template <class... Values>
 
 /// Our result in words: a time, that it did not fold, or why nothing can be said.
 [[nodiscard]] std::string ours(const CaseResult& result) {
+  if (!result.left_out.empty()) return "other settings";
   if (!result.summary) return "not run";
   if (result.summary->fold_time) return format("%.3f s", *result.summary->fold_time);
   if (result.summary->failure) return "stopped";
@@ -48,11 +49,16 @@ constexpr std::array<Colour, 4> colours{Colour::hex(0xc01c28), Colour::hex(0xf08
 
 }  // namespace
 
-std::array<CaseResult, 4> read_results(const std::filesystem::path& out) {
+std::array<CaseResult, 4> read_results(const std::filesystem::path& out, const RunSettings& settings) {
   std::array<CaseResult, 4> results;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::filesystem::path folder = out / cases[i].name;
-    results[i] = {read_summary(folder / "summary.json"), read_series(folder / "series.csv")};
+    const auto summary = read_summary(folder / "summary.json");
+    if (!summary) continue;
+    if (const auto difference = first_difference(summary->settings, settings))
+      results[i].left_out = *difference;
+    else
+      results[i] = {summary, read_series(folder / "series.csv")};
   }
   return results;
 }
@@ -91,6 +97,9 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary; s && s->failure)
       text += "\nCase " + std::string(cases[i].name) + " stopped: " + *s->failure + "\n";
+  for (std::size_t i = 0; i < 4; ++i)
+    if (const auto& reason = results[i].left_out; !reason.empty())
+      text += "\nCase " + std::string(cases[i].name) + " was run with other settings: " + reason + ".\n";
   examples::write_atomically(path, text);
 }
 

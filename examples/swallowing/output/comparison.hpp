@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "output/series.hpp"
@@ -16,11 +17,12 @@ namespace swallowing {
 struct CaseResult {
   std::optional<Summary> summary;
   std::vector<Sample> samples;
+  std::string left_out = {};  ///< why there is nothing, though the case was run: its settings were others
 };
 
-/// Reads the results of the paper's four cases from `out`, in the order of `cases`; those that
-/// were not run are empty.
-[[nodiscard]] std::array<CaseResult, 4> read_results(const std::filesystem::path& out);
+/// Reads the results of the paper's four cases from `out`, in the order of `cases`; those that were not run are empty,
+/// and so are those that were run with other `settings` (see `shared_settings`).
+[[nodiscard]] std::array<CaseResult, 4> read_results(const std::filesystem::path& out, const RunSettings& settings);
 
 /// Writes table2.md at `path`: our times of downfolding beside the paper's Table 2.
 void write_table2(const std::filesystem::path& path, const std::array<CaseResult, 4>& results);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "output/checkpoint.hpp"
+
 namespace swallowing {
 
 /// How well a case kept its volume: det F of the free particles at 1.667 s.
@@ -53,6 +55,7 @@ struct Summary {
   /// The same of each tenth of a second that was simulated: free motion, the squeeze, and what is between.
   std::vector<double> contact_share_per_tenth;
   std::optional<std::string> failure;  ///< why the run ended before its time
+  RunSettings settings;                ///< see `shared_settings`
 };
 
 /// Writes `summary` as JSON, atomically. What is not finite or not there becomes null.
