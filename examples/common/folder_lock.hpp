@@ -36,7 +36,7 @@ class FolderLock {
       const std::string owner = content();
       ::close(file_);
       throw hmps::InputError(hmps::message("the folder ", path.string(), " is being written by another run",
-                                           owner.empty() ? "" : hmps::message(" (process ", owner, ')'),
+                                           owner.empty() ? "" : hmps::message(" (process ", owner, ")"),
                                            "; wait for its end, or choose another folder with --out"));
     }
     if (problem != 0)
