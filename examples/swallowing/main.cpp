@@ -17,6 +17,7 @@
 #include "options.hpp"
 #include "output/comparison.hpp"
 #include "output/fingerprint.hpp"
+#include "output/mechanisms.hpp"
 #include "output/progress.hpp"
 #include "run_case.hpp"
 #include "waiting.hpp"
@@ -57,6 +58,7 @@ void compare_cases(const Options& options) {
     if (const auto& reason = results[i].left_out; !reason.empty())
       std::cerr << cases[i].name << " is left out of table2.md: it was run with " << reason << '\n';
   write_table2(out / "table2.md", results);
+  write_mechanisms(out / "mechanisms.md", results);
   draw_fold(out / "fold.png", results);
 }
 

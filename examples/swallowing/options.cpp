@@ -22,7 +22,7 @@ std::filesystem::path data_folder(const Options& options) {
 std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                                      int& exit_code) {
   Options options;
-  std::string chosen = "all", scalar, quality(default_quality.name);
+  std::string chosen = "all", contact = "smooth", scalar, quality(default_quality.name);
   bool without_h = false, no_frames = false;
   CLI::App app(
       "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
@@ -79,6 +79,13 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
 
+  app.add_option(
+         "--contact", contact,
+         "smooth (default): SmoothMetaball on the drawn surfaces, corrected friction, k of the materials; paper: "
+         "its metaball (eq. 26) on the lattice's own surface, its friction (eq. 40), k~ = 0.3 unless given")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"smooth", "paper"}));
+
   const std::string experiments = "Experiments";
   auto* fixed = number(app.add_option("--penalty", options.penalty, "fixed penalty coefficient k in N/m4"), "K")
                     ->check(within(1e-300, 1e300, "the penalty coefficient must be positive"))
@@ -121,6 +128,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   // The step that belongs to a quality belongs to its spacing.
   if (time_step->empty()) options.time_step = spacing->empty() ? named->time_step : 0;
   options.single_precision = scalar.empty() ? named->single_precision : scalar == "float";
+  options.paper_contact = contact == "paper";
+  if (options.paper_contact && !options.penalty && !options.penalty_ratio) options.penalty_ratio = 0.3;
   options.constrictors = !without_h;
   options.frames = !no_frames;
   if (options.threads == 0) options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

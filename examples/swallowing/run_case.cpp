@@ -17,6 +17,7 @@
 #include "../common/files.hpp"
 #include "../common/folder_lock.hpp"
 #include "output/checkpoint.hpp"
+#include "output/contacts.hpp"
 #include "output/effort.hpp"
 #include "output/fingerprint.hpp"
 #include "output/history.hpp"
@@ -52,6 +53,7 @@ class Run {
                            .lattice_shift = options.lattice_shift,
                            .model = chosen.model,
                            .constrictors = options.constrictors,
+                           .drawn_surfaces = !options.paper_contact,
                            .data = data_})),
         simulation_(scene_, motion_, materials_,
                     {.friction = friction_,
@@ -59,6 +61,7 @@ class Run {
                      .step_share = options.step_share,
                      .penalty = options.penalty.value_or(0),
                      .penalty_ratio = options.penalty_ratio.value_or(0),
+                     .paper_contact = options.paper_contact,
                      .threads = options.threads}),
         settings_(fingerprint(options, chosen, data_, friction_, simulation_.time_step(), simulation_.penalty())) {
     summary_.case_name = chosen.name;
@@ -67,6 +70,7 @@ class Run {
     summary_.spacing = options.spacing;
     summary_.friction = friction_;
     summary_.penalty = simulation_.penalty();
+    summary_.paper_contact = options.paper_contact;
     summary_.time_step_min = summary_.time_step_max = simulation_.time_step();
     summary_.time_step_limit = simulation_.step_limit().limit;
     summary_.settings = shared_settings(options);
@@ -75,7 +79,7 @@ class Run {
 
   Summary operator()() {
     const auto before = options_.resume ? last_checkpoint() : std::nullopt;
-    History history(folder_, options_.frames, before);
+    History history(folder_, contacts_header(scene_), options_.frames, before);
     if (before) resume(*before);
     for (const Sample& sample : history.series.samples()) measure(sample);
 
@@ -101,6 +105,7 @@ class Run {
           const Sample now = observe(simulation_, scene_, std::exchange(penetration_, 0) / scene_.spacing);
           smallest_j = now.smallest_j;
           history.series.add(now);
+          history.contacts.add(observe_contacts(simulation_, scene_));
           measure(now);
           snap(history.snapshots, time);
         }
@@ -157,7 +162,7 @@ class Run {
     }
     std::string text = hmps::message(chosen_.name, ": particles of the control regions");
     const char* separator = ": ";
-    for (const auto& [name, count] : counts) text += hmps::message(std::exchange(separator, ", "), name, ' ', count);
+    for (const auto& [name, count] : counts) text += hmps::message(std::exchange(separator, ", "), name, " ", count);
     std::cerr << text << '\n';
     for (const auto& [name, count] : counts)
       if (count == 0)

@@ -40,6 +40,21 @@ template <class... Values>
   return format("%+.0f ms", 1e3 * (*result.summary->fold_time - *paper.fold_time));
 }
 
+/// The contacts at `path`, whose columns are those that its scene had; nothing if there is no file.
+[[nodiscard]] ContactTable read_contacts(const std::filesystem::path& path) {
+  ContactTable table;
+  if (!std::filesystem::exists(path)) return table;
+  const std::string text = examples::read_file(path);
+  const std::string header = text.substr(0, text.find('\n'));
+  table.rows = parse_table(text, header, path);
+  for (std::size_t begin = 0; begin <= header.size();) {
+    const std::size_t end = std::min(header.find(',', begin), header.size());
+    table.names.push_back(header.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return table;
+}
+
 constexpr Colour ink = Colour::hex(0x1d2430);
 constexpr Colour faint = Colour::hex(0x6b7480);
 constexpr Colour grid = Colour::hex(0xe3e7ec);
@@ -58,7 +73,7 @@ std::array<CaseResult, 4> read_results(const std::filesystem::path& out, const R
     if (const auto difference = first_difference(summary->settings, settings))
       results[i].left_out = *difference;
     else
-      results[i] = {summary, read_series(folder / "series.csv")};
+      results[i] = {summary, read_series(folder / "series.csv"), read_contacts(folder / "contacts.csv")};
   }
   return results;
 }
@@ -82,6 +97,13 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
       "\nThe time is that at which the line from the centre of the epiglottis (the level of region F) to its tip\n"
       "first passes below the horizontal; \"base to tip\" reads the line from its base to its tip instead. The\n"
       "motion was calibrated on X1, X3 and Y1 at 2.4 mm, with an eye on 1.8 mm; Y3 is a prediction.\n";
+  for (const CaseResult& result : results)
+    if (result.summary && result.summary->paper_contact) {
+      text +=
+          "Contact is that of the paper (--contact paper): its metaball and friction law, k~ = 0.3 unless given, and\n"
+          "the lattice's own surface.\n";
+      break;
+    }
   std::string runs;
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary)

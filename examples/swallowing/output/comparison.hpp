@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,10 +15,23 @@
 
 namespace swallowing {
 
+/// The content of contacts.csv.
+struct ContactTable {
+  std::vector<std::string> names;
+  TableRows rows;
+  /// The place of the column of that name; nothing if there is none.
+  [[nodiscard]] std::optional<std::size_t> column(const std::string& name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names.begin());
+  }
+};
+
 /// What there is of one of the paper's cases in an output folder.
 struct CaseResult {
   std::optional<Summary> summary;
   std::vector<Sample> samples;
+  ContactTable contacts = {};
   std::string left_out = {};  ///< why there is nothing, though the case was run: its settings were others
 };
 

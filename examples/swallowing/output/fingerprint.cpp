@@ -40,6 +40,7 @@ RunSettings fingerprint(const Options& options, const Case& chosen, const std::f
                        {"friction", text(friction)},
                        {"time step", text(first_step)},
                        {"share of the stable step", options.time_step > 0 ? "none" : text(options.step_share)},
+                       {"contact", options.paper_contact ? "paper" : "smooth"},
                        {"penalty", text(penalty)}};
   add_tracks(settings, data);
   return settings;
@@ -54,6 +55,7 @@ RunSettings shared_settings(const Options& options) {
                        {"friction", options.friction ? text(*options.friction) : "of the case"},
                        {"time step", options.time_step > 0 ? text(options.time_step)
                                                            : text(options.step_share) + " of the largest stable one"},
+                       {"contact", options.paper_contact ? "paper" : "smooth"},
                        {"penalty", options.penalty ? text(*options.penalty) : "of the materials"},
                        {"penalty ratio", options.penalty_ratio ? text(*options.penalty_ratio) : "none"}};
   add_tracks(settings, data_folder(options));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "output/checkpoint.hpp"
 #include "output/frames.hpp"
@@ -13,18 +14,22 @@
 
 namespace swallowing {
 
-/// What the run of a case leaves of its course in its folder: the series, the snapshots for its sheet, and frames. A
-/// checkpoint holds the state alone. So it is written after all of these are on the disk and keeps how far they had
-/// come, and a run is resumed only where they still are what they were.
+/// What the run of a case leaves of its course in its folder: the series, the contacts, the snapshots for its sheet,
+/// and frames. A checkpoint holds the state alone. So it is written after all of these are on the disk and keeps how
+/// far they had come, and a run is resumed only where they still are what they were.
 struct History {
   Series series;
+  TimeTable contacts;
   Snapshots snapshots;
   std::optional<Frames> frames;
 
   /// Begins anew and removes what an earlier run has left; or continues behind the checkpoint `resumed`. Throws
   /// `InputError` where anything from before it is lost or changed.
-  History(const std::filesystem::path& folder, bool with_frames, const std::optional<Checkpoint>& resumed)
-      : series(begin(folder, resumed) / "series.csv", mark(resumed)), snapshots(folder / "snapshots", time(resumed)) {
+  History(const std::filesystem::path& folder, const std::string& contacts_header, bool with_frames,
+          const std::optional<Checkpoint>& resumed)
+      : series(begin(folder, resumed) / "series.csv", mark("series", resumed)),
+        contacts(folder / "contacts.csv", contacts_header, mark("contacts", resumed)),
+        snapshots(folder / "snapshots", time(resumed)) {
     for (std::size_t panel = 0; resumed && panel < picture_times.size(); ++panel)
       hmps::require(picture_times[panel] > resumed->time + 5e-10 || snapshots.load(panel), "in ",
                     (folder / "snapshots").string(), " the moment at ", picture_times[panel],
@@ -37,6 +42,7 @@ struct History {
   /// Writes all to the disk, and into `checkpoint` how far it has come.
   void flush(Checkpoint& checkpoint) {
     checkpoint.set("series", std::array{series.flush_to_disk()});
+    checkpoint.set("contacts", std::array{contacts.flush_to_disk()});
     checkpoint.set("frames", std::uint64_t{frames ? frames->list().size() : frames_before_});
   }
 
@@ -48,9 +54,10 @@ struct History {
       if (!resumed) std::filesystem::remove(folder / file);
     return folder;
   }
-  [[nodiscard]] static std::optional<TableMark> mark(const std::optional<Checkpoint>& resumed) {
+  [[nodiscard]] static std::optional<TableMark> mark(const std::string& table,
+                                                     const std::optional<Checkpoint>& resumed) {
     if (!resumed) return std::nullopt;
-    return resumed->value<TableMark>("series");
+    return resumed->value<TableMark>(table);
   }
   [[nodiscard]] static std::optional<double> time(const std::optional<Checkpoint>& resumed) {
     if (!resumed) return std::nullopt;

@@ -52,6 +52,7 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
                      {"threads", s.threads},
                      {"friction", s.friction},
                      {"penalty", s.penalty},
+                     {"contact", s.paper_contact ? "paper" : "smooth"},
                      {"particles_free", s.particles_free},
                      {"particles_control", s.particles_control},
                      {"fold_time", nullable(s.fold_time)},
@@ -88,6 +89,7 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.threads = json.at("threads").get<int>();
     s.friction = number(json, "friction");
     s.penalty = number(json, "penalty");
+    s.paper_contact = json.value("contact", "smooth") == "paper";
     s.particles_free = json.at("particles_free").get<std::uint64_t>();
     s.particles_control = json.at("particles_control").get<std::uint64_t>();
     s.fold_time = optional<double>(json, "fold_time");

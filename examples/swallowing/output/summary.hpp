@@ -36,6 +36,7 @@ struct Summary {
   double spacing = 0;  ///< m
   double friction = 0;
   double penalty = 0;                              ///< k in N/m4
+  bool paper_contact = false;                      ///< --contact paper
   double time_step = 0;                            ///< s, in the mean
   double time_step_min = 0, time_step_max = 0;     ///< s
   double time_step_limit = 0;                      ///< s, the estimate of the largest stable step at rest

@@ -20,8 +20,9 @@ TEST(Numbers, AreReadAsAWhole) {
 }
 
 TEST(Numbers, OfOtherNotationsOrWithAnythingElseAreRefused) {
-  for (const std::string text : {"", "+", "-", ".", "e5", "0x1", "0X1p3", "1 ", " 1", "1,5", "1_000", "1'000", "1.5x",
-                                 "--1", "+-1", "++1", "inf", "-infinity", "nan", "1e400", "1e-400", "1\n"})
+  for (const std::string text :
+       {"",      "+",    "-",   ".",   "e5",  "0x1", "0X1p3",     "1 ",  " 1",    "1,5",    "1_000",
+        "1'000", "1.5x", "--1", "+-1", "++1", "inf", "-infinity", "nan", "1e400", "1e-400", "1\n"})
     EXPECT_FALSE(decimal<double>(text)) << '"' << text << '"';
   EXPECT_FALSE(decimal<double>(std::string("1\0", 2)));
   for (const std::string text : {"1.0", "1e3", "0b1", "0x1", "9999999999", ""})

@@ -87,6 +87,15 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(parse({"--step-share", "0.4"}).options->step_share, 0.4);
 }
 
+TEST(Options, TheContactOfThePaperHasItsPenalty) {
+  EXPECT_FALSE(parse({}).options->paper_contact);
+  EXPECT_FALSE(parse({"--contact", "smooth"}).options->penalty_ratio);
+  EXPECT_TRUE(parse({"--contact", "paper"}).options->paper_contact);
+  EXPECT_EQ(parse({"--contact", "paper"}).options->penalty_ratio, 0.3);
+  EXPECT_EQ(parse({"--contact", "paper", "--penalty-ratio", "0.1"}).options->penalty_ratio, 0.1);
+  EXPECT_FALSE(parse({"--contact", "paper", "--penalty", "1e10"}).options->penalty_ratio);
+}
+
 TEST(Options, NumbersAreDecimal) {
   EXPECT_EQ(parse({"--threads", "010"}).options->threads, 10);  // eight, to CLI11
   EXPECT_EQ(parse({"--threads", "+2"}).options->threads, 2);
@@ -149,6 +158,7 @@ TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
                                                        {"--frame-interval", "0x1"},
                                                        {"--threads", "0x2"},
                                                        {"--threads", "2.0"},
+                                                       {"--contact", "rough"},
                                                        {"--threads", "1000"},  // which only wait for each other
                                                        {"--penalty", "1", "--penalty-ratio", "0.3"}};
   for (const auto& mistake : mistakes) {

@@ -53,7 +53,8 @@ TEST(Series, ResumedAtACheckpointItIsTheSameFile) {
     for (int i = 0; i < 50; ++i) series.add(sample(i));
   }
   const TableMark mark = thirty_samples(resumed);
-  // What a kill leaves: more than the checkpoint knows of, and half a line. What a loss of power leaves: anything there.
+  // What a kill leaves: more than the checkpoint knows of, and half a line. What a loss of power leaves: anything
+  // there.
   std::filesystem::resize_file(resumed, std::filesystem::file_size(resumed) - 7);
   std::filesystem::resize_file(resumed, std::filesystem::file_size(resumed) + 100);
   TableMark again;
