@@ -38,4 +38,5 @@ int main() {
     if (step % 1000 == 0)
       std::printf("t = %.2f s: the middle of the end has sunk by %5.2f mm\n", step * dt, 1e3 * fall());
   }
+  return std::fflush(stdout) == 0 ? 0 : 1;
 }

@@ -45,5 +45,5 @@ int main() {
     hmps::kick(v, f, rho, dt);
     hmps::drift(x, v, dt);
   }
-  return std::abs(after - before) < 1e-4 * before ? 0 : 1;  // what float velocities allow
+  return std::fflush(stdout) == 0 && std::abs(after - before) < 1e-4 * before ? 0 : 1;  // what float velocities allow
 }

@@ -72,5 +72,5 @@ int main() {
     std::printf("t = %.3f s: plate %.3f m/s, block %.4f m/s, mu g t = %.4f m/s\n", step * dt, velocity[0][0], speed,
                 mu * g * step * dt);
   }
-  return std::abs(speed / (mu * g * 3000 * dt) - 1) < 0.02 ? 0 : 1;
+  return std::fflush(stdout) == 0 && std::abs(speed / (mu * g * 3000 * dt) - 1) < 0.02 ? 0 : 1;
 }

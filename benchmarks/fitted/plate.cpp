@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <hmps/hmps.hpp>
 #include <utility>
 #include <vector>
+
+#include "../../examples/common/numbers.hpp"
+#include "../../examples/common/streams.hpp"
 
 namespace {
 
@@ -98,8 +100,16 @@ void row(double spacing, bool sheet) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("fitted_plate");
   std::vector<double> spacings;
-  for (int k = 1; k < argc; ++k) spacings.push_back(std::atof(argv[k]));
+  for (int k = 1; k < argc; ++k) {
+    const auto spacing = examples::decimal<double>(argv[k]);
+    if (!spacing || *spacing < 0.1 || *spacing > 5) {
+      std::fprintf(stderr, "fitted_plate: the spacing in mm must be a number from 0.1 to 5, not '%s'\n", argv[k]);
+      return 2;
+    }
+    spacings.push_back(*spacing);
+  }
   if (spacings.empty()) spacings = {2.4, 1.8, 1.6, 1.2};
   std::puts("| spacing (mm) | layers | E_hat | tip (mm) | from to | scatter | error |\n|---|---|---|---|---|---|---|");
   for (const double spacing : spacings)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/canvas.hpp"
+#include "common/streams.hpp"
 #include "parts.hpp"
 
 namespace {
@@ -45,6 +46,7 @@ void draw(const std::vector<Ratio>& ratios, const fs::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("stability");
   CLI::App app{"Survival map: extremes stepped up until they fail, and the estimate of the largest stable step"};
   bool quick = false;
   std::string out = "results/stability", document, only;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../../examples/common/files.hpp"
+#include "../../examples/common/streams.hpp"
 #include "agreement.hpp"
 #include "chart.hpp"
 #include "report.hpp"
@@ -70,6 +71,7 @@ std::string preface() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("tradeoff");
   using namespace tradeoff;
   std::vector<std::string> names;
   for (const auto& [name, make] : scenes) names.emplace_back(name);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../../examples/common/files.hpp"
+#include "../../examples/common/streams.hpp"
 #include "page.hpp"
 #include "parts.hpp"
 
@@ -69,6 +70,7 @@ std::string preface(double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("verification");
   std::string out = "results/verification", document;
   std::vector<std::string> chosen;
   bool quick = false, tables = false, list = false;

@@ -13,6 +13,7 @@
 #include "../tradeoff/report.hpp"
 #include "block.hpp"
 #include "common/canvas.hpp"
+#include "common/streams.hpp"
 
 namespace {
 
@@ -210,6 +211,7 @@ void draw(const std::vector<Found>& all, const fs::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("walls");
   CLI::App app{
       "What a wall of particles feels like that is cut out of its lattice at an angle: drag, ripple, friction"};
   bool quick = false;

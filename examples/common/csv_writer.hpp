@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <unistd.h>
+
 #include <charconv>
 #include <cstdio>
 #include <span>
@@ -37,12 +39,18 @@ class CsvWriter {
     file_ = std::fopen(path.c_str(), keep ? "ab" : "wb");
     hmps::require(file_ != nullptr, "cannot write ", path.string(), ": ", std::strerror(errno));
     if (!keep) put(std::string(header) + '\n');
+    flush_folder(path.parent_path());
   }
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
   ~CsvWriter() { std::fclose(file_); }
 
   void add(std::span<const double> row) { put(csv_line(row)); }
+  /// Writes to the disk what was added so far: from then on a loss of power leaves it whole.
+  void flush_to_disk() {
+    hmps::require(::fsync(::fileno(file_)) == 0, "cannot write ", path_.string(),
+                  " to the disk: ", std::strerror(errno));
+  }
 
  private:
   void put(const std::string& text) {

@@ -19,6 +19,16 @@ namespace examples {
 
 namespace fs = std::filesystem;
 
+/// Writes to the disk what the folder at `path` lists, such as a file that was made or renamed in it: what is flushed
+/// of the file itself is of no use after a loss of power while the folder does not name it.
+inline void flush_folder(const fs::path& path) {
+  const int folder = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool flushed = folder >= 0 && (::fsync(folder) == 0 || errno == EINVAL);  // EINVAL: it has no need of it
+  const int reason = errno;
+  if (folder >= 0) ::close(folder);
+  hmps::require(flushed, "cannot write the folder ", path.string(), " to the disk: ", std::strerror(reason));
+}
+
 /// Replaces the file at `path` by `bytes`, such that at any moment, also after kill -9 or a loss of
 /// power, either the old or the new file is there and whole: written beside it, flushed to the disk,
 /// then renamed. Throws `InputError` with the reason if that fails.
@@ -48,7 +58,9 @@ inline void write_atomically(const fs::path& path, std::string_view bytes) {
 [[nodiscard]] inline std::string read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   hmps::require(static_cast<bool>(file), "cannot read ", path.string(), ": ", std::strerror(errno));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  hmps::require(!file.bad(), "cannot read ", path.string(), " to its end: ", std::strerror(errno));
+  return bytes;
 }
 
 /// Makes the folder at `path` if it is missing and proves that files can be written there, so that a

@@ -7,7 +7,9 @@
 #include <iostream>
 #include <string>
 
+#include "../common/arguments.hpp"
 #include "../common/csv_writer.hpp"
+#include "../common/streams.hpp"
 #include "probe.hpp"
 
 namespace {
@@ -55,6 +57,7 @@ std::string table_of(const Forces& forces) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("force_probe");
   Settings settings;
   std::string in, out, law = "corrected", scalar = "double";
   CLI::App app(
@@ -66,12 +69,13 @@ int main(int argc, char** argv) {
   app.add_option("--in", in, "the state")->type_name("FILE")->required();
   app.add_option("--out", out, "the forces; without it they go to standard output")->type_name("FILE");
   const auto number = [&](const char* name, double& target, const char* unit, const char* help) {
-    return app.add_option(name, target, help)->type_name(unit)->capture_default_str();
+    return app.add_option(name, target, help)->type_name(unit)->capture_default_str()->check(examples::is_decimal());
   };
   number("--spacing", settings.spacing, "M", "spacing l0 of the particles")->check(CLI::PositiveNumber);
   number("--young", settings.young, "PA", "Young's modulus E")->check(CLI::PositiveNumber);
   const auto* hat = app.add_option("--young-hat", settings.young_hat, "E_hat of the artificial force (default: E)")
                         ->type_name("PA")
+                        ->check(examples::is_decimal())
                         ->check(CLI::NonNegativeNumber);
   number("--d1", settings.d1, "PA", "volumetric constant D1")->check(CLI::PositiveNumber);
   number("--density", settings.density, "KG/M3", "density")->check(CLI::PositiveNumber);

@@ -48,7 +48,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const auto skin = hmps::surface_layers(X.part(0, n), l0).outermost;
   std::vector<hmps::Index> wall;
   for (std::size_t i = n; i < reference.size(); ++i) wall.push_back(static_cast<hmps::Index>(i));
-  const hmps::RaisedSkin<double, 3> raised(X, skin, hmps::MeshDistance<double>(mesh), l0);
+  const hmps::SurfaceCorrection<double, 3> raised(X, skin, hmps::MeshDistance<double>(mesh), l0);
   hmps::MetaballContact<double, 3> contact(
       {.spacing = l0, .density = rho, .stiffness = hmps::PenaltyStiffness::fixed(10 * young / (l0 * l0))});
   const auto pressed = contact.add_organ({"body", skin}), pressing = contact.add_organ({"plate", {}, wall});

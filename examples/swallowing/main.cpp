@@ -8,11 +8,16 @@
 #include <future>
 #include <iostream>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "../common/files.hpp"
+#include "../common/folder_lock.hpp"
+#include "../common/streams.hpp"
 #include "options.hpp"
 #include "output/comparison.hpp"
+#include "output/fingerprint.hpp"
+#include "output/mechanisms.hpp"
 #include "output/progress.hpp"
 #include "run_case.hpp"
 #include "waiting.hpp"
@@ -32,6 +37,29 @@ void report(const Summary& summary) {
               << " s, " << nearest->organ << "); ";
   std::cout << "took " << duration(summary.wall_seconds) << '\n';
   if (summary.failure) std::cerr << summary.case_name << " stopped: " << *summary.failure << '\n';
+}
+
+/// Throws `InputError` where another process is running one of the cases in the same folder: before the first begins,
+/// not once it is the turn of the last.
+void require_free_folders(const Options& options) {
+  for (const std::string& name : options.cases) {
+    const auto folder = std::filesystem::path(options.out) / name;
+    examples::prepare_folder(folder);
+    const examples::FolderLock lock(folder);
+  }
+}
+
+/// Writes what compares all cases in the output folder that were run with these settings, also at another time.
+void compare_cases(const Options& options) {
+  const std::filesystem::path out(options.out);
+  const examples::FolderLock lock(out, examples::FolderLock::Taken::wait);
+  const auto results = read_results(out, shared_settings(options));
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (const auto& reason = results[i].left_out; !reason.empty())
+      std::cerr << cases[i].name << " is left out of table2.md: it was run with " << reason << '\n';
+  write_table2(out / "table2.md", results);
+  write_mechanisms(out / "mechanisms.md", results);
+  draw_fold(out / "fold.png", results);
 }
 
 /// Runs the cases, as many at a time as there are threads: cases need not wait for each other, while the threads of one
@@ -64,17 +92,15 @@ bool run_cases(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace swallowing;
+  examples::check_standard_streams("swallowing");
   int exit_code = 0;
   const auto options = parse_options(argc, argv, std::cout, std::cerr, exit_code);
   if (!options) return exit_code;
   wait_shortly_if_busy(options->threads, argv);
   try {
-    const std::filesystem::path out(options->out);
-    examples::prepare_folder(out);
+    require_free_folders(*options);
     if (!run_cases(*options)) exit_code = 1;
-    const auto results = read_results(out);
-    write_table2(out / "table2.md", results);
-    draw_fold(out / "fold.png", results);
+    compare_cases(*options);
   } catch (const std::exception& error) {
     std::cerr << "swallowing: " << error.what() << '\n';
     return 2;

@@ -3,31 +3,26 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <hmps/executors/openmp.hpp>
 #include <ostream>
+#include <string>
 #include <thread>
+
+#include "../common/arguments.hpp"
 
 namespace swallowing {
 
-namespace {
+using examples::whole_within;
+using examples::within;
 
-/// A finite number within [low, high], with a message that tells the unit.
-[[nodiscard]] CLI::Validator within(double low, double high, const std::string& what) {
-  return CLI::Validator(
-      [=](std::string& text) -> std::string {
-        double value = 0;
-        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) return "'" + text + "' is not a number";
-        return value >= low && value <= high ? std::string() : what + " (" + text + " was given)";
-      },
-      "");
+std::filesystem::path data_folder(const Options& options) {
+  return options.data.empty() ? SWALLOWING_DATA : options.data;
 }
-
-}  // namespace
 
 std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                                      int& exit_code) {
   Options options;
-  std::string chosen = "all", scalar, quality(default_quality.name);
+  std::string chosen = "all", contact = "smooth", scalar, quality(default_quality.name);
   bool without_h = false, no_frames = false;
   CLI::App app(
       "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
@@ -71,7 +66,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
       ->check(CLI::IsMember({"float", "double"}));
   app.add_option("--threads", options.threads, "number of threads (default: all cores); results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->transform(whole_within(1, hmps::OpenMP::most_threads(),
+                               "the number of threads must lie between 1 and " +
+                                   std::to_string(hmps::OpenMP::most_threads()) +
+                                   ", four for each processor here: more only wait for each other"));
   app.add_option("--out", options.out, "output folder (default: results)")->type_name("DIR");
   app.add_flag("--resume", options.resume, "continue from the last checkpoints in the output folder, to the same bits");
   app.add_flag("--no-frames", no_frames, "write no frames for ParaView");
@@ -80,6 +78,13 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   app.add_option("--data", options.data, "folder with the motion tracks (default: those of the example)")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
+
+  app.add_option(
+         "--contact", contact,
+         "smooth (default): SmoothMetaball on the drawn surfaces, corrected friction, k of the materials; paper: "
+         "its metaball (eq. 26) on the lattice's own surface, its friction (eq. 40), k~ = 0.3 unless given")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"smooth", "paper"}));
 
   const std::string experiments = "Experiments";
   auto* fixed = number(app.add_option("--penalty", options.penalty, "fixed penalty coefficient k in N/m4"), "K")
@@ -123,6 +128,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   // The step that belongs to a quality belongs to its spacing.
   if (time_step->empty()) options.time_step = spacing->empty() ? named->time_step : 0;
   options.single_precision = scalar.empty() ? named->single_precision : scalar == "float";
+  options.paper_contact = contact == "paper";
+  if (options.paper_contact && !options.penalty && !options.penalty_ratio) options.penalty_ratio = 0.3;
   options.constrictors = !without_h;
   options.frames = !no_frames;
   if (options.threads == 0) options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

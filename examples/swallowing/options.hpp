@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct Options {
   double step_share = 0.8;                                 ///< of the largest stable step, where the step follows it
   double until = end_of_swallow;                           ///< in s
   std::optional<double> friction;                          ///< overrules the friction coefficient of the cases
+  bool paper_contact = false;                              ///< contact as the paper has it, in place of ours
   std::optional<double> penalty;                           ///< fixed k in N/m4, whatever the step
   std::optional<double> penalty_ratio;                     ///< k~ of \paper{25}
   bool single_precision = default_quality.single_precision;
@@ -49,6 +51,9 @@ struct Options {
   std::string data;              ///< folder of the motion tracks; empty: those of the example
   bool resume = false;
 };
+
+/// The folder of the tracks of the motion: that of the example, unless the options name another.
+[[nodiscard]] std::filesystem::path data_folder(const Options& options);
 
 /// Reads the command line. Gives nothing when the program is to end at once with `exit_code`: 0 after
 /// --help, 2 after a mistake, which is explained on `err`.

@@ -15,15 +15,16 @@
 #include <vector>
 
 #include "../common/files.hpp"
+#include "../common/folder_lock.hpp"
 #include "output/checkpoint.hpp"
+#include "output/contacts.hpp"
 #include "output/effort.hpp"
 #include "output/fingerprint.hpp"
-#include "output/frames.hpp"
+#include "output/history.hpp"
 #include "output/measure.hpp"
 #include "output/observe.hpp"
 #include "output/pictures.hpp"
 #include "output/progress.hpp"
-#include "output/series.hpp"
 #include "scene/build_scene.hpp"
 #include "simulation/schedule.hpp"
 #include "simulation/simulation.hpp"
@@ -44,13 +45,15 @@ class Run {
       : options_(options),
         chosen_(chosen),
         friction_(options.friction.value_or(chosen.friction)),
-        folder_(std::filesystem::path(options.out) / chosen.name),
-        data_(options.data.empty() ? SWALLOWING_DATA : options.data),
+        folder_(prepared(std::filesystem::path(options.out) / chosen.name)),
+        lock_(folder_),
+        data_(data_folder(options)),
         motion_(data_),
         scene_(make_scene({.spacing = options.spacing,
                            .lattice_shift = options.lattice_shift,
                            .model = chosen.model,
                            .constrictors = options.constrictors,
+                           .drawn_surfaces = !options.paper_contact,
                            .data = data_})),
         simulation_(scene_, motion_, materials_,
                     {.friction = friction_,
@@ -58,33 +61,33 @@ class Run {
                      .step_share = options.step_share,
                      .penalty = options.penalty.value_or(0),
                      .penalty_ratio = options.penalty_ratio.value_or(0),
+                     .paper_contact = options.paper_contact,
                      .threads = options.threads}),
         settings_(fingerprint(options, chosen, data_, friction_, simulation_.time_step(), simulation_.penalty())) {
-    examples::prepare_folder(folder_);
     summary_.case_name = chosen.name;
     summary_.scalar = options.single_precision ? "float" : "double";
     summary_.threads = options.threads;
     summary_.spacing = options.spacing;
     summary_.friction = friction_;
     summary_.penalty = simulation_.penalty();
+    summary_.paper_contact = options.paper_contact;
     summary_.time_step_min = summary_.time_step_max = simulation_.time_step();
     summary_.time_step_limit = simulation_.step_limit().limit;
+    summary_.settings = shared_settings(options);
     for (const int region : scene_.region) ++(region < 0 ? summary_.particles_free : summary_.particles_control);
   }
 
   Summary operator()() {
-    const auto before = options_.resume ? resume() : std::nullopt;
-    Series series(folder_ / "series.csv", before);
-    for (const Sample& sample : series.samples()) measure(sample);
-    Snapshots snapshots(folder_ / "snapshots", before);
-    std::optional<Frames> frames;
-    if (options_.frames) frames.emplace(folder_, before);
+    const auto before = options_.resume ? last_checkpoint() : std::nullopt;
+    History history(folder_, contacts_header(scene_), options_.frames, before);
+    if (before) resume(*before);
+    for (const Sample& sample : history.series.samples()) measure(sample);
 
     accounted_ = std::chrono::steady_clock::now();
     const auto first_step = simulation_.steps();
     Every sample(sample_interval), frame(options_.frame_interval), keep(checkpoint_interval), limit(limit_interval);
     if (before)
-      for (Every* what : {&sample, &frame}) what->skip(*before, simulation_.time_step());
+      for (Every* what : {&sample, &frame}) what->skip(before->time, simulation_.time_step());
     for (Every* what : {&keep, &limit}) what->skip(simulation_.time(), simulation_.time_step());
     Progress progress(std::cerr, {.name = std::string(chosen_.name),
                                   .start = simulation_.time(),
@@ -101,20 +104,21 @@ class Run {
         if (sample.due(time, dt)) {
           const Sample now = observe(simulation_, scene_, std::exchange(penetration_, 0) / scene_.spacing);
           smallest_j = now.smallest_j;
-          series.add(now);
+          history.series.add(now);
+          history.contacts.add(observe_contacts(simulation_, scene_));
           measure(now);
-          snap(snapshots, time);
+          snap(history.snapshots, time);
         }
-        if (frames && frame.due(time, dt)) add_frame(*frames, simulation_, scene_);
+        if (history.frames && frame.due(time, dt)) add_frame(*history.frames, simulation_, scene_);
         if (limit.due(time, dt)) watch_step(time);
-        if (keep.due(time, dt)) checkpoint();
+        if (keep.due(time, dt)) checkpoint(history);
         if (time >= options_.until - dt / 2) break;
         simulation_.step();
         penetration_ = std::max(penetration_, static_cast<double>(simulation_.contact_report().penetration));
         if (simulation_.steps() % 32 == 0) check(simulation_, scene_);
         progress.update(simulation_.time(), simulation_.steps() - first_step, smallest_j);
       }
-      checkpoint();
+      checkpoint(history);
     } catch (const hmps::StateError& error) {
       summary_.failure = error.what();
     }
@@ -122,7 +126,7 @@ class Run {
     progress.finish(simulation_.time(), steps, smallest_j);
     account();
     finish();
-    draw_sheet(folder_ / "sheet.png", snapshots, title());
+    draw_sheet(folder_ / "sheet.png", history.snapshots, title());
     return summary_;
   }
 
@@ -158,7 +162,7 @@ class Run {
     }
     std::string text = hmps::message(chosen_.name, ": particles of the control regions");
     const char* separator = ": ";
-    for (const auto& [name, count] : counts) text += hmps::message(std::exchange(separator, ", "), name, ' ', count);
+    for (const auto& [name, count] : counts) text += hmps::message(std::exchange(separator, ", "), name, " ", count);
     std::cerr << text << '\n';
     for (const auto& [name, count] : counts)
       if (count == 0)
@@ -205,6 +209,10 @@ class Run {
       summary_.det_f = DetF{J.mean, J.share_within, J.min, J.max};
     }
   }
+  [[nodiscard]] static std::filesystem::path prepared(const std::filesystem::path& folder) {
+    examples::prepare_folder(folder);
+    return folder;
+  }
   void snap(const Snapshots& snapshots, double time) {
     for (std::size_t panel = 0; panel < picture_times.size(); ++panel)
       if (std::abs(time - picture_times[panel]) < sample_interval / 2)
@@ -230,9 +238,10 @@ class Run {
   }
 
   [[nodiscard]] std::filesystem::path checkpoint_file() const { return folder_ / "checkpoint.bin"; }
-  void checkpoint() {
+  void checkpoint(History& history) {
     account();
     Checkpoint state;
+    history.flush(state);
     state.settings = settings_;
     state.time = simulation_.time();
     state.step = simulation_.steps();
@@ -253,28 +262,41 @@ class Run {
     state.set("of them for contact", effort_.contact);
     state.save(checkpoint_file());
   }
-  std::optional<double> resume() {
-    const std::optional<Checkpoint> state = Checkpoint::load(checkpoint_file());
-    if (!state) return std::nullopt;
-    require_same_settings(*state, settings_, checkpoint_file());
+  /// The checkpoint to resume from; nothing where the run was stopped before its first. Throws `InputError` where there
+  /// must have been one, or where it is of another run.
+  [[nodiscard]] std::optional<Checkpoint> last_checkpoint() const {
+    std::optional<Checkpoint> state = Checkpoint::load(checkpoint_file());
+    if (state) {
+      require_same_settings(*state, settings_, checkpoint_file());
+      std::cerr << hmps::message(chosen_.name, ": resumed at ", state->time, " s\n");
+      return state;
+    }
+    const auto samples = read_series(folder_ / "series.csv");
+    hmps::require(samples.empty() || samples.back().time < checkpoint_interval + sample_interval / 2,
+                  (folder_ / "series.csv").string(), " goes to ", samples.empty() ? 0 : samples.back().time,
+                  " s, but there is no ", checkpoint_file().string(),
+                  " to resume from; put it back, or start anew without --resume");
+    std::cerr << hmps::message(chosen_.name, ": there is no checkpoint to resume from: starts at 0 s\n");
+    return std::nullopt;
+  }
+  void resume(const Checkpoint& state) {
     std::vector<std::array<double, 3>> x(scene_.reference.size());
-    state->get("positions", x);
+    state.get("positions", x);
     for (std::size_t i = 0; i < x.size(); ++i)
       simulation_.position_array()[i] = Eigen::Vector3d(x[i][0], x[i][1], x[i][2]);
-    state->get("velocities", simulation_.velocity_array());
-    penetration_ = state->value<double>("penetration");
-    effort_ = {state->get<double>("seconds"), state->get<double>("of them for contact")};
-    if (const auto J = state->get<double>("det F"); J.size() == 4) summary_.det_f = DetF{J[0], J[1], J[2], J[3]};
-    if (const auto n = state->get<double>("nearest to limit"); n.size() == 4) {
+    state.get("velocities", simulation_.velocity_array());
+    penetration_ = state.value<double>("penetration");
+    effort_ = {state.get<double>("seconds"), state.get<double>("of them for contact")};
+    if (const auto J = state.get<double>("det F"); J.size() == 4) summary_.det_f = DetF{J[0], J[1], J[2], J[3]};
+    if (const auto n = state.get<double>("nearest to limit"); n.size() == 4) {
       const auto particle = static_cast<std::uint64_t>(n[3]);
       summary_.nearest_to_limit =
           NearestToLimit{n[0], n[1], n[2], particle, std::string(name(scene_.organ.at(particle)))};
     }
     std::array<double, 2> range{};
-    state->get("range of steps", range);
+    state.get("range of steps", range);
     summary_.time_step_min = range[0], summary_.time_step_max = range[1];
-    simulation_.resume(state->value<StepClock>("clock"), state->get<double>("limiting mode"));
-    return state->time;
+    simulation_.resume(state.value<StepClock>("clock"), state.get<double>("limiting mode"));
   }
   [[nodiscard]] std::vector<std::array<double, 3>> positions() {
     std::vector<std::array<double, 3>> x;
@@ -285,7 +307,9 @@ class Run {
   Options options_;
   Case chosen_;
   double friction_;
-  std::filesystem::path folder_, data_;
+  std::filesystem::path folder_;
+  examples::FolderLock lock_;
+  std::filesystem::path data_;
   Materials materials_;
   Motion motion_;
   Scene scene_;

@@ -9,7 +9,7 @@ namespace swallowing {
 namespace {
 
 constexpr std::string_view magic = "hmps swallowing checkpoint\n";
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 /// Reads back as another number where the order of bytes differs.
 constexpr std::uint64_t byte_order = 0x0102030405060708;
 
@@ -112,6 +112,8 @@ std::optional<Checkpoint> Checkpoint::load(const std::filesystem::path& path) {
     array.name = in.text();
     array.width = in.number<std::uint64_t>();
     array.bytes = in.text();
+    hmps::require(array.width > 0 && array.bytes.size() % array.width == 0, path.string(), " is damaged: its array ",
+                  array.name, " has ", array.bytes.size(), " bytes in elements of ", array.width, remedy);
     checkpoint.arrays_.push_back(std::move(array));
   }
   return checkpoint;
@@ -124,19 +126,25 @@ const Checkpoint::Array& Checkpoint::find(const std::string& name) const {
   return *found;
 }
 
-void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
-                           const std::filesystem::path& path) {
+std::optional<std::string> first_difference(const RunSettings& other, const RunSettings& settings) {
   const auto value_in = [](const RunSettings& list, const std::string& name) {
     const auto found = std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
     return found == list.end() ? std::string("not set") : found->second;
   };
-  const auto compare = [&](const std::string& name) {
-    const std::string then = value_in(checkpoint.settings, name), now = value_in(settings, name);
-    hmps::require(then == now, path.string(), " was written by a run with ", name, " ", then, ", but this one has ",
-                  now, "; resume with the same settings, or start anew without --resume");
-  };
-  for (const auto& entry : settings) compare(entry.first);
-  for (const auto& entry : checkpoint.settings) compare(entry.first);
+  for (const RunSettings* list : {&settings, &other})
+    for (const auto& entry : *list) {
+      const std::string& name = entry.first;
+      const std::string theirs = value_in(other, name), ours = value_in(settings, name);
+      if (theirs != ours) return name + ' ' + theirs + " in place of " + ours;
+    }
+  return std::nullopt;
+}
+
+void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
+                           const std::filesystem::path& path) {
+  const auto difference = first_difference(checkpoint.settings, settings);
+  hmps::require(!difference, path.string(), " was written by a run with ", difference.value_or(""),
+                ", which this one has; resume with the same settings, or start anew without --resume");
 }
 
 }  // namespace swallowing

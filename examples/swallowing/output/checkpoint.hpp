@@ -92,6 +92,10 @@ class Checkpoint {
   std::vector<Array> arrays_;
 };
 
+/// The first setting in which two runs differ, in words: "spacing 0.0018 in place of 0.0024", where `other` has the
+/// former; nothing if they agree.
+[[nodiscard]] std::optional<std::string> first_difference(const RunSettings& other, const RunSettings& settings);
+
 /// Throws `InputError` that names the first difference unless the checkpoint from `path` was written
 /// by a run with the same `settings`.
 void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,

@@ -26,6 +26,7 @@ template <class... Values>
 
 /// Our result in words: a time, that it did not fold, or why nothing can be said.
 [[nodiscard]] std::string ours(const CaseResult& result) {
+  if (!result.left_out.empty()) return "other settings";
   if (!result.summary) return "not run";
   if (result.summary->fold_time) return format("%.3f s", *result.summary->fold_time);
   if (result.summary->failure) return "stopped";
@@ -39,6 +40,21 @@ template <class... Values>
   return format("%+.0f ms", 1e3 * (*result.summary->fold_time - *paper.fold_time));
 }
 
+/// The contacts at `path`, whose columns are those that its scene had; nothing if there is no file.
+[[nodiscard]] ContactTable read_contacts(const std::filesystem::path& path) {
+  ContactTable table;
+  if (!std::filesystem::exists(path)) return table;
+  const std::string text = examples::read_file(path);
+  const std::string header = text.substr(0, text.find('\n'));
+  table.rows = parse_table(text, header, path);
+  for (std::size_t begin = 0; begin <= header.size();) {
+    const std::size_t end = std::min(header.find(',', begin), header.size());
+    table.names.push_back(header.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return table;
+}
+
 constexpr Colour ink = Colour::hex(0x1d2430);
 constexpr Colour faint = Colour::hex(0x6b7480);
 constexpr Colour grid = Colour::hex(0xe3e7ec);
@@ -48,11 +64,16 @@ constexpr std::array<Colour, 4> colours{Colour::hex(0xc01c28), Colour::hex(0xf08
 
 }  // namespace
 
-std::array<CaseResult, 4> read_results(const std::filesystem::path& out) {
+std::array<CaseResult, 4> read_results(const std::filesystem::path& out, const RunSettings& settings) {
   std::array<CaseResult, 4> results;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::filesystem::path folder = out / cases[i].name;
-    results[i] = {read_summary(folder / "summary.json"), read_series(folder / "series.csv")};
+    const auto summary = read_summary(folder / "summary.json");
+    if (!summary) continue;
+    if (const auto difference = first_difference(summary->settings, settings))
+      results[i].left_out = *difference;
+    else
+      results[i] = {summary, read_series(folder / "series.csv"), read_contacts(folder / "contacts.csv")};
   }
   return results;
 }
@@ -76,6 +97,13 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
       "\nThe time is that at which the line from the centre of the epiglottis (the level of region F) to its tip\n"
       "first passes below the horizontal; \"base to tip\" reads the line from its base to its tip instead. The\n"
       "motion was calibrated on X1, X3 and Y1 at 2.4 mm, with an eye on 1.8 mm; Y3 is a prediction.\n";
+  for (const CaseResult& result : results)
+    if (result.summary && result.summary->paper_contact) {
+      text +=
+          "Contact is that of the paper (--contact paper): its metaball and friction law, k~ = 0.3 unless given, and\n"
+          "the lattice's own surface.\n";
+      break;
+    }
   std::string runs;
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary)
@@ -91,6 +119,9 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& s = results[i].summary; s && s->failure)
       text += "\nCase " + std::string(cases[i].name) + " stopped: " + *s->failure + "\n";
+  for (std::size_t i = 0; i < 4; ++i)
+    if (const auto& reason = results[i].left_out; !reason.empty())
+      text += "\nCase " + std::string(cases[i].name) + " was run with other settings: " + reason + ".\n";
   examples::write_atomically(path, text);
 }
 

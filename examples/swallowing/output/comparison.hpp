@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "output/series.hpp"
@@ -12,15 +15,29 @@
 
 namespace swallowing {
 
+/// The content of contacts.csv.
+struct ContactTable {
+  std::vector<std::string> names;
+  TableRows rows;
+  /// The place of the column of that name; nothing if there is none.
+  [[nodiscard]] std::optional<std::size_t> column(const std::string& name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names.begin());
+  }
+};
+
 /// What there is of one of the paper's cases in an output folder.
 struct CaseResult {
   std::optional<Summary> summary;
   std::vector<Sample> samples;
+  ContactTable contacts = {};
+  std::string left_out = {};  ///< why there is nothing, though the case was run: its settings were others
 };
 
-/// Reads the results of the paper's four cases from `out`, in the order of `cases`; those that
-/// were not run are empty.
-[[nodiscard]] std::array<CaseResult, 4> read_results(const std::filesystem::path& out);
+/// Reads the results of the paper's four cases from `out`, in the order of `cases`; those that were not run are empty,
+/// and so are those that were run with other `settings` (see `shared_settings`).
+[[nodiscard]] std::array<CaseResult, 4> read_results(const std::filesystem::path& out, const RunSettings& settings);
 
 /// Writes table2.md at `path`: our times of downfolding beside the paper's Table 2.
 void write_table2(const std::filesystem::path& path, const std::array<CaseResult, 4>& results);

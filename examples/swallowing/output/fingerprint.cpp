@@ -2,22 +2,25 @@
 #include "output/fingerprint.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "../../common/files.hpp"
+#include "../../common/csv_writer.hpp"
+#include "output/digest.hpp"
 
 namespace swallowing {
 namespace {
 
-/// A number that changes with the text (FNV-1a).
-std::uint64_t digest(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
+/// Adds what is in the tracks of the motion.
+void add_tracks(RunSettings& settings, const std::filesystem::path& data) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files)
+    if (file.extension() == ".csv")
+      settings.emplace_back("content of " + file.filename().string(),
+                            std::to_string(Digest(examples::read_file(file)).value()));
 }
 
 }  // namespace
@@ -37,14 +40,25 @@ RunSettings fingerprint(const Options& options, const Case& chosen, const std::f
                        {"friction", text(friction)},
                        {"time step", text(first_step)},
                        {"share of the stable step", options.time_step > 0 ? "none" : text(options.step_share)},
+                       {"contact", options.paper_contact ? "paper" : "smooth"},
                        {"penalty", text(penalty)}};
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files)
-    if (file.extension() == ".csv")
-      settings.emplace_back("content of " + file.filename().string(),
-                            std::to_string(digest(examples::read_file(file))));
+  add_tracks(settings, data);
+  return settings;
+}
+
+RunSettings shared_settings(const Options& options) {
+  const auto text = [](double value) { return examples::to_text(value); };
+  RunSettings settings{{"scalar", options.single_precision ? "float" : "double"},
+                       {"spacing", text(options.spacing)},
+                       {"lattice shift", text(options.lattice_shift)},
+                       {"region H", options.constrictors ? "yes" : "no"},
+                       {"friction", options.friction ? text(*options.friction) : "of the case"},
+                       {"time step", options.time_step > 0 ? text(options.time_step)
+                                                           : text(options.step_share) + " of the largest stable one"},
+                       {"contact", options.paper_contact ? "paper" : "smooth"},
+                       {"penalty", options.penalty ? text(*options.penalty) : "of the materials"},
+                       {"penalty ratio", options.penalty_ratio ? text(*options.penalty_ratio) : "none"}};
+  add_tracks(settings, data_folder(options));
   return settings;
 }
 

@@ -14,4 +14,8 @@ namespace swallowing {
 [[nodiscard]] RunSettings fingerprint(const Options& options, const Case& chosen, const std::filesystem::path& data,
                                       double friction, double first_step, double penalty);
 
+/// The settings that the cases of one run of the program share: what their results have to agree in to stand in one
+/// table.
+[[nodiscard]] RunSettings shared_settings(const Options& options);
+
 }  // namespace swallowing

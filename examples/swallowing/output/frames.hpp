@@ -19,10 +19,12 @@ namespace swallowing {
 class Frames {
  public:
   /// Begins the frames of a case, and removes those of an earlier run; or continues behind those up to
-  /// `resume_time`, the time of the checkpoint from which the run is resumed.
-  explicit Frames(const std::filesystem::path& folder, std::optional<double> resume_time = {}) : folder_(folder) {
+  /// `resume_time`, the time of the checkpoint from which the run is resumed, of which there were `before`. Throws
+  /// `InputError` where any of these is missing.
+  explicit Frames(const std::filesystem::path& folder, std::optional<double> resume_time = {}, std::size_t before = 0)
+      : folder_(folder) {
     namespace fs = std::filesystem;
-    if (resume_time && fs::exists(folder_ / "frames.pvd")) read(*resume_time);
+    if (resume_time && before > 0) read(*resume_time, before);
     fs::create_directories(folder_ / "frames");
     for (const auto& entry : fs::directory_iterator(folder_ / "frames")) {
       const std::string name = "frames/" + entry.path().filename().string();
@@ -47,8 +49,9 @@ class Frames {
   void write_list() const { examples::write_atomically(folder_ / "frames.pvd", examples::pvd(frames_)); }
 
   /// Reads the list that `write_list` wrote.
-  void read(double resume_time) {
-    const std::string text = examples::read_file(folder_ / "frames.pvd");
+  void read(double resume_time, std::size_t before) {
+    const auto list = folder_ / "frames.pvd";
+    const std::string text = std::filesystem::exists(list) ? examples::read_file(list) : std::string();
     const auto attribute = [&](const std::string& name, std::size_t from) {
       const std::size_t begin = text.find(name + "=\"", from) + name.size() + 2;
       return text.substr(begin, text.find('"', begin) - begin);
@@ -59,6 +62,12 @@ class Frames {
       std::from_chars(time_text.data(), time_text.data() + time_text.size(), time);
       if (time <= resume_time + 5e-10) frames_.emplace_back(time, attribute("file", at));
     }
+    const char* remedy = "; put it back, resume with --no-frames, or start anew without --resume";
+    hmps::require(frames_.size() == before, list.string(), " lists ", frames_.size(), " of the ", before,
+                  " frames that were written before the checkpoint", remedy);
+    for (const auto& [time, file] : frames_)
+      hmps::require(std::filesystem::exists(folder_ / file), (folder_ / file).string(),
+                    " is missing, which was written before the checkpoint", remedy);
   }
 
   std::filesystem::path folder_;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "../../common/csv_writer.hpp"
+#include "output/time_table.hpp"
 
 namespace swallowing {
 
@@ -43,59 +41,31 @@ struct Sample {
 /// end of the program that wrote it is left out. Throws `InputError` if it is no series of this program.
 [[nodiscard]] inline std::vector<Sample> read_series(const std::filesystem::path& path) {
   std::vector<Sample> samples;
-  if (!std::filesystem::exists(path)) return samples;
-  std::string text = examples::read_file(path);
-  text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
-  if (text.empty()) return samples;
-  hmps::require(text.starts_with(std::string(Sample::header) + '\n'), path.string(),
-                " is not a series of this program; remove it or choose another folder with --out");
-  // A diverging run may leave inf and nan in its last lines, which are worth reading, too.
-  for (std::size_t begin = text.find('\n') + 1; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    std::vector<double> row;
-    for (const char *cell = text.data() + begin, *line_end = text.data() + end; cell < line_end; ++cell) {
-      double value = 0;
-      const auto [last, problem] = std::from_chars(cell, line_end, value);
-      if (problem == std::errc()) row.push_back(value);
-      cell = std::find(last, line_end, ',');
-    }
-    hmps::require(row.size() == Sample{}.values().size(), path.string(), " has a malformed line after ",
-                  samples.size() + 1, " lines; remove the file or choose another folder with --out");
-    samples.push_back(Sample::of(row));
-    begin = end + 1;
-  }
+  for (const auto& row : read_table(path, Sample::header)) samples.push_back(Sample::of(row));
   return samples;
 }
 
-/// The time series of a case, series.csv. It can be read at any moment while the case runs.
+/// The time series of a case, series.csv.
 class Series {
  public:
-  /// Begins the series at `path`; or continues it behind its samples up to `resume_time`, the time of
-  /// the checkpoint from which the run is resumed: later samples are dropped, as they come again.
-  explicit Series(const std::filesystem::path& path, std::optional<double> resume_time = {})
-      : samples_(resume_time ? kept(path, *resume_time) : std::vector<Sample>()),
-        file_(path, Sample::header, resume_time.has_value() && std::filesystem::exists(path)) {}
+  /// Begins the series at `path`, or continues it; throws as `TimeTable` does.
+  explicit Series(const std::filesystem::path& path, const std::optional<TableMark>& resumed = {})
+      : table_(path, Sample::header, resumed) {
+    for (const auto& row : table_.rows()) samples_.push_back(Sample::of(row));
+  }
 
   void add(const Sample& sample) {
     samples_.push_back(sample);
-    file_.add(sample.values());
+    table_.add(sample.values());
   }
-  /// All samples since the start of the case, also those from before `resume_time`.
+  /// All samples since the start of the case, also those from before it was resumed.
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+  /// See `TimeTable::flush_to_disk`.
+  [[nodiscard]] TableMark flush_to_disk() { return table_.flush_to_disk(); }
 
  private:
-  [[nodiscard]] static std::vector<Sample> kept(const std::filesystem::path& path, double resume_time) {
-    std::vector<Sample> samples = read_series(path);
-    // Half a nanosecond: far below any step, far above the rounding of a time.
-    std::erase_if(samples, [&](const Sample& sample) { return sample.time > resume_time + 5e-10; });
-    std::string text = std::string(Sample::header) + '\n';
-    for (const Sample& sample : samples) text += examples::csv_line(sample.values());
-    examples::write_atomically(path, text);
-    return samples;
-  }
-
+  TimeTable table_;
   std::vector<Sample> samples_;
-  examples::CsvWriter file_;
 };
 
 }  // namespace swallowing

@@ -37,6 +37,8 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
   if (const auto& n = s.nearest_to_limit)
     nearest = {
         {"share", n->share}, {"limit", n->limit}, {"time", n->time}, {"particle", n->particle}, {"organ", n->organ}};
+  Json settings = Json::object();
+  for (const auto& [name, value] : s.settings) settings[name] = value;
   const Json json = {{"case", s.case_name},
                      {"spacing", s.spacing},
                      {"time_step", s.time_step},
@@ -50,6 +52,7 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
                      {"threads", s.threads},
                      {"friction", s.friction},
                      {"penalty", s.penalty},
+                     {"contact", s.paper_contact ? "paper" : "smooth"},
                      {"particles_free", s.particles_free},
                      {"particles_control", s.particles_control},
                      {"fold_time", nullable(s.fold_time)},
@@ -61,7 +64,8 @@ void write_summary(const std::filesystem::path& path, const Summary& s) {
                      {"particle_steps_per_second", s.particle_steps_per_second},
                      {"contact_share", s.contact_share},
                      {"contact_share_per_tenth", s.contact_share_per_tenth},
-                     {"failure", nullable(s.failure)}};
+                     {"failure", nullable(s.failure)},
+                     {"settings", settings}};
   examples::write_atomically(path, json.dump(2) + "\n");
 }
 
@@ -85,6 +89,7 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.threads = json.at("threads").get<int>();
     s.friction = number(json, "friction");
     s.penalty = number(json, "penalty");
+    s.paper_contact = json.value("contact", "smooth") == "paper";
     s.particles_free = json.at("particles_free").get<std::uint64_t>();
     s.particles_control = json.at("particles_control").get<std::uint64_t>();
     s.fold_time = optional<double>(json, "fold_time");
@@ -99,6 +104,9 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.contact_share = number(json, "contact_share");
     s.contact_share_per_tenth = json.at("contact_share_per_tenth").get<std::vector<double>>();
     s.failure = optional<std::string>(json, "failure");
+    if (json.contains("settings"))  // An earlier version did not tell them: they agree with nothing.
+      for (const auto& [name, value] : json.at("settings").items())
+        s.settings.emplace_back(name, value.get<std::string>());
     return s;
   } catch (const Json::exception& problem) {
     throw hmps::InputError(hmps::message(path.string(), " is not a summary of this program: ", problem.what(),

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "output/checkpoint.hpp"
+
 namespace swallowing {
 
 /// How well a case kept its volume: det F of the free particles at 1.667 s.
@@ -34,6 +36,7 @@ struct Summary {
   double spacing = 0;  ///< m
   double friction = 0;
   double penalty = 0;                              ///< k in N/m4
+  bool paper_contact = false;                      ///< --contact paper
   double time_step = 0;                            ///< s, in the mean
   double time_step_min = 0, time_step_max = 0;     ///< s
   double time_step_limit = 0;                      ///< s, the estimate of the largest stable step at rest
@@ -53,6 +56,7 @@ struct Summary {
   /// The same of each tenth of a second that was simulated: free motion, the squeeze, and what is between.
   std::vector<double> contact_share_per_tenth;
   std::optional<std::string> failure;  ///< why the run ended before its time
+  RunSettings settings;                ///< see `shared_settings`
 };
 
 /// Writes `summary` as JSON, atomically. What is not finite or not there becomes null.

@@ -260,7 +260,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
   }
   detail::declare_contacts(scene, body);
-  scene.skin = detail::surface_correction(scene, body, anatomy);
+  if (settings.drawn_surfaces) scene.skin = detail::surface_correction(scene, body, anatomy);
   const Point placement = detail::leaf_placement(body, l0);
   for (Region& region : scene.regions)
     if (region.name == "E" || region.name == "F") region.placement = placement;

@@ -29,6 +29,7 @@ struct SceneSettings {
   double lattice_shift = 0;  ///< of the lattice along x and z, in spacings, from where `make_scene` puts it
   Model model = Model::X;
   bool constrictors = true;    ///< with region H
+  bool drawn_surfaces = true;  ///< contact sees the drawn surfaces; false: the lattice's own, as in the paper
   std::filesystem::path data;  ///< folder of the motion, whose constrictors.csv shapes region H
 };
 
@@ -61,7 +62,7 @@ struct Scene {
   std::vector<hmps::Index> base, centre,
       tip;  ///< of the epiglottis in the midline: arcs at region E, region F, the end
   std::optional<hmps::SurfaceCorrection<double, 3>>
-      skin;                 ///< where contact sees the organs' particles: at the drawn surface
+      skin;                 ///< where contact sees the organs' particles: at the drawn surface; nothing: where they are
   std::size_t removed = 0;  ///< weakly supported particles that were left out
 
   /// Whether two particles of the body are bonded if they are near enough: not across an air gap.

@@ -14,13 +14,13 @@
 #include <hmps/motion/control_region.hpp>
 #include <hmps/terms/artificial.hpp>
 #include <hmps/terms/elastic.hpp>
+#include <hmps/terms/record.hpp>
 #include <hmps/terms/viscous.hpp>
 #include <hmps/time/symplectic_euler.hpp>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
-#include "hmps/terms/record.hpp"
-#include "hmps/time/symplectic_euler.hpp"
 
 #include "scene/materials.hpp"
 #include "scene/motion.hpp"
@@ -37,10 +37,11 @@ class Simulation {
  public:
   struct Settings {
     double friction = 0.1;
-    double time_step = 0;      ///< s; 0: follows the largest stable one
-    double step_share = 1;     ///< of the largest stable step, where the step follows it
-    double penalty = 0;        ///< k in N/m4; 0: from the ratio, or from the materials
-    double penalty_ratio = 0;  ///< k~ of \paper{25}; 0: not asked for
+    double time_step = 0;        ///< s; 0: follows the largest stable one
+    double step_share = 1;       ///< of the largest stable step, where the step follows it
+    double penalty = 0;          ///< k in N/m4; 0: from the ratio, or from the materials
+    double penalty_ratio = 0;    ///< k~ of \paper{25}; 0: not asked for
+    bool paper_contact = false;  ///< metaball and friction law as the paper has them
     int threads = 1;
   };
 
@@ -61,10 +62,11 @@ class Simulation {
         step_limit_(limit_at_rest()),
         step_share_(settings.time_step > 0 ? 0 : settings.step_share),
         penalty_(chosen_penalty(settings)),
-        contact_({.spacing = scene.spacing,
-                  .density = materials.density,
-                  .friction = settings.friction,
-                  .stiffness = hmps::PenaltyStiffness::fixed(penalty_)}) {
+        contact_(make_contact({.spacing = scene.spacing,
+                               .density = materials.density,
+                               .friction = settings.friction,
+                               .stiffness = hmps::PenaltyStiffness::fixed(penalty_)},
+                              settings.paper_contact)) {
     clock_ = StepClock(settings.time_step > 0 ? settings.time_step : chosen_step());
     limited_by_ = hmps::describe(step_limit_, causes(), hmps::relative_support(bonds_, step_limit_.particle));
     force_.restrict_to([&scene](std::size_t i) { return scene.region[i] < 0; });
@@ -85,10 +87,11 @@ class Simulation {
     prescribe();
 
     const auto start = std::chrono::steady_clock::now();
-    // Contact sees the drawn surfaces, not the stairs of the lattice.
-    (*scene_->skin)(x, gradients(), hmps::vectors(places_), execute_);
-    report_ = contact_.kick(hmps::vectors(places_), v, gradients(), materials_.density, time_step(), execute_);
-    contact_.check(report_, time());
+    const auto places = touching_places();
+    with_contact([&](auto& contact) {
+      report_ = contact.kick(places, v, gradients(), materials_.density, time_step(), execute_);
+      contact.check(report_, time());
+    });
     contact_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
     hmps::drift(x, v, time_step(), execute_);
@@ -112,6 +115,12 @@ class Simulation {
   [[nodiscard]] std::uint64_t steps() const { return clock_.steps(); }
   [[nodiscard]] double contact_seconds() const { return contact_seconds_; }
   [[nodiscard]] const hmps::ContactReport<S>& contact_report() const { return report_; }
+
+  /// Calls `visit` with an `hmps::Touch` for each touch of the latest step; its pair is a place in `Scene::contacts`.
+  template <class Visit>
+  void for_each_touch(Visit&& visit) {
+    with_contact([&](auto& contact) { contact.for_each_touch(visit); });
+  }
 
   [[nodiscard]] auto positions() { return hmps::vectors(x_); }
   [[nodiscard]] hmps::VectorView<S, 3> velocities() { return structure_of_arrays<3>(v_); }
@@ -154,10 +163,29 @@ class Simulation {
   void resume(const StepClock& clock, std::vector<double> limiting_mode) {
     clock_ = clock;
     step_limit_.mode = std::move(limiting_mode);
-    contact_.refresh();
+    with_contact([](auto& contact) { contact.refresh(); });
   }
 
  private:
+  using SmoothContact = hmps::MetaballContact<S, 3, hmps::SmoothMetaball, hmps::CorrectedFriction>;
+  using PaperContact = hmps::MetaballContact<S, 3, hmps::PaperMetaball, hmps::PaperFriction>;
+  using EitherContact = std::variant<SmoothContact, PaperContact>;
+
+  [[nodiscard]] static EitherContact make_contact(const hmps::ContactSettings& settings, bool paper) {
+    if (paper) return EitherContact(std::in_place_type<PaperContact>, settings);
+    return EitherContact(std::in_place_type<SmoothContact>, settings);
+  }
+  template <class Use>
+  void with_contact(Use&& use) {
+    std::visit(use, contact_);
+  }
+  /// Where contact sees the particles: at the drawn surfaces, or on the stairs of the lattice.
+  [[nodiscard]] auto touching_places() {
+    if (!scene_->skin) return positions();
+    (*scene_->skin)(positions(), gradients(), hmps::vectors(places_), execute_);
+    return hmps::vectors(places_);
+  }
+
   /// Young's modulus (Pa) of each particle of the body.
   [[nodiscard]] auto modulus() const { return body(hmps::scalars(modulus_)); }
 
@@ -225,16 +253,20 @@ class Simulation {
   }
 
   void add_contacts() {
+    with_contact([this](auto& contact) { add_contacts_to(contact); });
+  }
+  template <class Contact>
+  void add_contacts_to(Contact& contact) {
     const auto prescribed = [this](hmps::Index i) { return scene_->region[i] >= 0; };
     for (const ContactPair& pair : scene_->contacts) {
       const auto organ = [&](Organ name, const auto& slaves, const auto& masters) {
-        return contact_.add_organ({.name = std::string(swallowing::name(name)),
-                                   .slaves = slaves,
-                                   .masters = masters,
-                                   .prescribed = prescribed});
+        return contact.add_organ({.name = std::string(swallowing::name(name)),
+                                  .slaves = slaves,
+                                  .masters = masters,
+                                  .prescribed = prescribed});
       };
-      contact_.add_pair(organ(pair.first, pair.first_slaves, pair.first_masters),
-                        organ(pair.second, pair.second_slaves, pair.second_masters));
+      contact.add_pair(organ(pair.first, pair.first_slaves, pair.first_masters),
+                       organ(pair.second, pair.second_slaves, pair.second_masters));
     }
   }
   void add_regions(const Motion& motion) {
@@ -259,7 +291,7 @@ class Simulation {
   hmps::StableStep step_limit_;
   std::string limited_by_;
   double step_share_, penalty_;
-  hmps::MetaballContact<S, 3> contact_;
+  EitherContact contact_;
   std::vector<hmps::ControlRegion<double, 3>> regions_;
   hmps::ContactReport<S> report_;
   double contact_seconds_ = 0;

@@ -45,4 +45,15 @@ struct ContactReport {
   std::size_t late = 0;
 };
 
+/// One slave that touches a wall, and what the wall does to it.
+template <int D>
+struct Touch {
+  std::size_t pair = 0;        ///< Number that `add_pair` gave.
+  bool slave_is_first = true;  ///< Whether the slave belongs to the first organ of the pair, the wall to the second.
+  Index slave = 0;
+  double penetration = 0;      ///< p in m, \paper{38}.
+  Vector<double, D> normal{};  ///< n_m, \paper{30}: from the wall to the slave.
+  Vector<double, D> force{};   ///< In N, on the slave, \paper{39, 40}; the wall feels the opposite.
+};
+
 }  // namespace hmps::inline HMPS_ABI

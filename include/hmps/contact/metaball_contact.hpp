@@ -181,6 +181,22 @@ class MetaballContact {
     return sum * std::pow(settings_.spacing, D);
   }
 
+  /// Calls `visit(touch)` with a `Touch<D>` for each slave that touched in the latest call, once per organ that it
+  /// touched: for pressures, areas, moments. The part of the force along the normal is \paper{39}, the rest friction.
+  /// Particles have the volume l0^D.
+  template <class Visit>
+  void for_each_touch(Visit&& visit) const {
+    const double volume = std::pow(settings_.spacing, D);
+    for (const Index r : touching_) {
+      const auto& row = lists_.active().rows()[r];
+      const auto& side = lists_.organs().sides()[row.side];
+      const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
+      visit(Touch<D>{side.pair, side.slaves == lists_.organs().pairs()[side.pair].first,
+                     lists_.active().awake()[row.slave].particle, static_cast<double>(state_[r].penetration),
+                     state_[r].normal.template cast<double>(), force * volume});
+    }
+  }
+
  private:
   using Quad = detail::Quad<S>;
   struct RowState {

@@ -46,6 +46,8 @@ class MessagePart {
   MessagePart(const T& part) {
     if constexpr (std::convertible_to<const T&, std::string_view>) {
       words_ = part;
+    } else if constexpr (std::same_as<T, char>) {
+      words_ = std::string_view(&part, 1);
     } else if constexpr (std::signed_integral<T>) {
       kind_ = Kind::integer;
       integer_ = part;

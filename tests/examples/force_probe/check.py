@@ -7,6 +7,7 @@ import csv
 import math
 import pathlib
 import random
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -281,6 +282,15 @@ def main(program):
         places = [f"{SPACING * i},{SPACING * j},{SPACING * k}" for i in range(4) for j in range(4) for k in range(4)]
         cube = "".join(f"{place},{place},0,0,0,1\n" for place in places)
         refused(program, folder, header + cube, "nearest neighbours", "--spacing", "1.2")  # millimetres
+        for option in ("--spacing", "--young", "--young-hat", "--d1", "--density", "--viscosity", "--friction",
+                       "--penalty-ratio", "--time-step"):
+            refused(program, folder, header + cube, option, option, "0x1")  # one, to CLI11
+        # Forces that did not arrive, because the disk is full or the stream closed, are an error.
+        command = f"{shlex.quote(program)} --spacing {SPACING} --in {shlex.quote(str(folder / 'bad.csv'))}"
+        for stream in (">/dev/full", ">&-"):
+            result = subprocess.run(f"{command} {stream}", shell=True, capture_output=True, text=True, check=False)
+            if result.returncode == 0 or "standard output" not in result.stderr:
+                sys.exit(f"{stream} ended with {result.returncode}: {result.stderr}")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@
 Usage: check.py PROGRAM
 """
 import pathlib
+import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -20,12 +22,22 @@ def refused(options, *parts):
             sys.exit(f"the message for {options} does not name {part}: {result.stderr}")
 
 
+def lost(options, stream):
+    """Output that does not arrive is an error, and goes nowhere else."""
+    line = " ".join(shlex.quote(str(part)) for part in (program, *options))
+    result = subprocess.run(f"{line} {stream}", shell=True, capture_output=True, text=True, timeout=300, check=False)
+    if result.returncode != 3 or (not stream.startswith("2") and "standard output" not in result.stderr):
+        sys.exit(f"{line} {stream} ended with {result.returncode}: {result.stderr}")
+
+
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     file = folder / "file"
     file.write_text("in the way")
     refused(["--speed", "11"], "--speed")
     refused(["--spacing", "2.4", "--out", folder / "a"], "--spacing", "2.4e-3")
+    refused(["--until", "0x1", "--out", folder / "a"], "--until", "decimal")
+    refused(["--threads", "1000", "--out", folder / "a"], "--threads", "processor")
     refused(["--case", "Z1", "--out", folder / "a"], "--case", "Z1")
     refused(["--data", folder / "none", "--out", folder / "a"], "--data", folder / "none")
     if (folder / "a").exists():
@@ -35,12 +47,32 @@ with tempfile.TemporaryDirectory() as name:
 
     run = ["--case", "X1", "--until", "0.002", "--no-frames", "--out", folder / "run"]
     subprocess.run([program, *map(str, run)], check=True, capture_output=True, timeout=300)
+    short = ["--case", "X1", "--until", "0.0005", "--no-frames"]
+    for number, stream in enumerate((">/dev/full", ">&-", "2>&-")):
+        lost([*short, "--out", folder / f"lost{number}"], stream)
+    series = [(folder / f"lost{number}/X1/series.csv").read_bytes() for number in range(3)]
+    if len(set(series)) > 1 or not series[0].startswith(b"time,"):
+        sys.exit("what was to go to a closed stream went into series.csv")
+    lost(["--help"], ">/dev/full")
+
+    # The table holds no case of other settings.
+    table = folder / "run/table2.md"
+    other = ["--case", "Y3", "--until", "0.0005", "--no-frames", "--out", folder / "run", "--friction", "0.2"]
+    subprocess.run([program, *map(str, other)], check=True, capture_output=True, timeout=300)
+    if "Case X1 was run with other settings: friction of the case in place of 0.2" not in table.read_text():
+        sys.exit(f"table2.md mixes runs of different settings: {table.read_text()}")
+
     refused([*run, "--resume", "--friction", "0.25"], "checkpoint.bin", "friction", "--resume")
     refused([*run, "--resume", "--scalar", "double"], "scalar", "float", "double")
     fast = ["--case", "X1", "--until", "0.0005", "--no-frames", "--out", folder / "fast", "--time-step", "4.5e-5"]
     warned = subprocess.run([program, *map(str, fast)], check=True, capture_output=True, text=True, timeout=300)
     if "beyond the limit" not in warned.stderr or "esophagus" not in warned.stderr:
         sys.exit(f"a step beyond the limit went without a warning: {warned.stderr}")
+    # Every control region tells its particles, and one without any does not go unseen.
+    if not re.search(r"control regions: fixed \d+, B0 \d+, .*, A 0, .*H \d+\n", warned.stderr):
+        sys.exit(f"the particles of the control regions are not told: {warned.stderr}")
+    if "control region A has no particle" not in warned.stderr:
+        sys.exit(f"an empty control region went without a warning: {warned.stderr}")
     checkpoint = folder / "run/X1/checkpoint.bin"
     data = bytearray(checkpoint.read_bytes())
     data[len(data) // 2] ^= 1

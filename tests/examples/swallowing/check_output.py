@@ -40,6 +40,23 @@ expect(all(math.isfinite(value) for row in rows for value in row.values()), "ser
 expect(all(a["time"] < b["time"] for a, b in zip(rows, rows[1:])), "the times of series.csv do not grow")
 expect(rows[-1]["time"] <= summary["time"] + 1e-9, "series.csv runs beyond the end")
 
+# The same moments; what touches as often as the series says; no force without a touch, and friction within its limit.
+lines = (folder / "contacts.csv").read_text().splitlines()
+header = lines[0].split(",")
+contacts = [dict(zip(header, map(float, line.split(",")), strict=True)) for line in lines[1:]]
+expect([row["time"] for row in contacts] == [row["time"] for row in rows], "contacts.csv has other times")
+expect(len(header) > 30 and "epiglottis-pharynx_area" in header, "contacts.csv lacks columns")
+for row, sample in zip(contacts, rows):
+    area = sum(value for name, value in row.items() if name.endswith("_area"))
+    expect(abs(area - sample["contacts"] / 2 * (1e3 * summary["spacing"]) ** 2) < 1e-6 * (1 + area),
+           f"areas do not fit the contacts at {row['time']} s")
+    for name in header:
+        if name.endswith("_area"):
+            normal, tangential = row[name[:-4] + "normal"], row[name[:-4] + "tangential"]
+            expect((normal > 0) == (row[name] > 0), f"{name}: a force without a touch at {row['time']} s")
+            expect(0 <= tangential <= summary["friction"] * normal * 1.0001, f"{name}: friction beyond its limit")
+expect(f"{case}" in (out / "mechanisms.md").read_text(), "mechanisms.md does not name the case")
+
 frames = xml.etree.ElementTree.parse(folder / "frames.pvd").getroot().findall("Collection/DataSet")
 expect(frames, "frames.pvd names no frame")
 try:

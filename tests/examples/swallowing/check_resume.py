@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: MIT
-"""Kills the swallow twice, resumes it, and compares it to the bit with a run that nobody disturbed.
+"""Kills the swallow again and again, resumes it, and compares it to the bit with a run that nobody disturbed. Checks
+that it is not resumed where files that it needs are lost, and that two runs never write into one folder.
 
-Usage: check_resume.py PROGRAM. Ends with 1 and a message at the first difference.
+Usage: check_resume.py PROGRAM [KILLS]. Ends with 1 and a message at the first difference. KILLS: how often it is killed
+at a random moment (default: 3).
 """
 import json
 import pathlib
+import random
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 
 program = sys.argv[1]
+kills = int(sys.argv[2]) if len(sys.argv) > 2 else 3
 SETTINGS = ["--case", "X1", "--until", "0.045", "--frame-interval", "0.015"]  # a checkpoint comes every 0.02 s
 MEASURED = ("wall_seconds", "particle_steps_per_second", "contact_share", "contact_share_per_tenth", "threads")
 
@@ -55,9 +61,75 @@ def compare(what, whole, other):
     print(f"{what}: {len(a)} results are the same to the bit", flush=True)
 
 
+def kill_at_random(out, most):
+    """Starts the program and kills it at most `most` seconds later. Returns whether it was still running."""
+    with subprocess.Popen(command(out, "--resume"), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as process:
+        try:
+            process.wait(timeout=random.uniform(0, most))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return True
+    if process.returncode != 0:
+        sys.exit(f"a killed run was resumed and ended with {process.returncode}")
+    return False
+
+
+def refused(out, *parts, options=("--resume",)):
+    """The program ends with 2 and a message that holds the parts, and leaves the series as it is."""
+    series = out / "X1/series.csv"
+    before = series.read_bytes() if series.exists() else None
+    result = subprocess.run(command(out, *options), capture_output=True, text=True, check=False)
+    if result.returncode != 2 or any(part not in result.stderr for part in parts):
+        sys.exit(f"{parts}: ended with {result.returncode}: {result.stderr}")
+    if (series.read_bytes() if series.exists() else None) != before:
+        sys.exit(f"{parts}: series.csv was changed")
+
+
+def refuses_what_is_incomplete(whole, out):
+    """Resumes a copy of a whole run of which something is missing."""
+    def lose(path, left=None):
+        shutil.rmtree(out, ignore_errors=True)
+        shutil.copytree(whole, out)
+        content = (out / "X1" / path).read_bytes()
+        (out / "X1" / path).unlink()
+        if left is not None:
+            (out / "X1" / path).write_bytes(content[:int(left * len(content))])
+
+    lose("series.csv")
+    refused(out, "series.csv", "start anew without --resume")
+    lose("series.csv", 0.5)
+    refused(out, "series.csv", "start anew without --resume")
+    lose("frames/frame_00001.vtu")
+    refused(out, "frame_00001.vtu", "--no-frames")
+    lose("frames.pvd", 0.3)
+    refused(out, "frames.pvd", "--no-frames")
+    lose("snapshots/snapshot_0.000s.bin")
+    refused(out, "snapshots", "0 s", "start anew without --resume")
+    lose("checkpoint.bin")
+    refused(out, "checkpoint.bin", "start anew without --resume")
+    shutil.rmtree(out)
+    print("what is incomplete is not resumed", flush=True)
+
+
+def refuses_a_folder_in_use(out):
+    """While one run writes into a folder, another is refused at once; when it has been killed, the next may go on."""
+    with subprocess.Popen(command(out), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as process:
+        while process.poll() is None and not (out / "X1/series.csv").exists():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGSTOP)  # so that it does not end meanwhile
+        result = subprocess.run(command(out, "--resume"), capture_output=True, text=True, check=False)
+        if result.returncode != 2 or str(process.pid) not in result.stderr:
+            sys.exit(f"a second run in one folder ended with {result.returncode}: {result.stderr}")
+        process.kill()
+    run(out, "--resume")
+    print("of two runs in one folder the second is refused", flush=True)
+
+
 with tempfile.TemporaryDirectory() as name:
     alone, killed = pathlib.Path(name) / "alone", pathlib.Path(name) / "killed"
+    start = time.monotonic()
     run(alone, "--threads", "1")
+    seconds = time.monotonic() - start
     kill_behind_checkpoint(killed, 0.0, "--threads", "2")
     kill_behind_checkpoint(killed, 0.02, "--threads", "1", "--resume")
     # What a kill may leave: half a line of the series, half a file beside a whole one.
@@ -69,3 +141,15 @@ with tempfile.TemporaryDirectory() as name:
     compare("killed twice, resumed with another number of threads", alone, killed)
     run(killed, "--resume")
     compare("resumed at its end", alone, killed)
+
+    shutil.rmtree(killed)
+    random.seed(16)
+    done = sum(kill_at_random(killed, seconds) for _ in range(kills))
+    run(killed, "--resume")
+    for part in killed.rglob("*.part"):
+        part.unlink()
+    compare(f"killed {done} times at random moments", alone, killed)
+
+    refuses_what_is_incomplete(alone, killed)
+    refuses_a_folder_in_use(killed)
+    compare("resumed after the run in the same folder was killed", alone, killed)

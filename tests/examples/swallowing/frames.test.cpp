@@ -59,7 +59,7 @@ TEST(Frames, ResumedTheyAreTheSame) {
     for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
   }
   {
-    Frames frames(resumed.path / "b", 0.2);
+    Frames frames(resumed.path / "b", 0.2, 3);
     ASSERT_EQ(frames.list().size(), 3u);
     for (int i = 3; i < 6; ++i) Cloud().write(frames, 0.1 * i);
   }
@@ -76,6 +76,23 @@ TEST(Frames, ANewRunRemovesTheFramesOfTheOld) {
   Frames frames(folder.path);
   Cloud().write(frames, 0);
   EXPECT_EQ(files_in(folder.path / "frames"), 1u);
+}
+
+TEST(Frames, AreNotResumedWhereSomeAreMissing) {
+  TestFolder folder;
+  {
+    Frames frames(folder.path);
+    for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
+  }
+  const auto refusal = [&] { return message_of<hmps::InputError>([&] { (void)Frames(folder.path, 0.2, 3); }); };
+  const auto second = folder.path / "frames/frame_00001.vtu", aside = folder.path / "aside.vtu";
+  std::filesystem::rename(second, aside);
+  EXPECT_NE(refusal().find("frame_00001.vtu"), std::string::npos) << refusal();
+  EXPECT_EQ(files_in(folder.path / "frames"), 4u) << "frames were removed all the same";
+  std::filesystem::rename(aside, second);
+  EXPECT_EQ(refusal(), "");
+  std::filesystem::remove(folder.path / "frames.pvd");
+  EXPECT_NE(refusal().find("frames.pvd lists 0 of the 3"), std::string::npos) << refusal();
 }
 
 TEST(Frames, AFieldOfAnotherSizeIsRefused) {

@@ -87,6 +87,22 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(parse({"--step-share", "0.4"}).options->step_share, 0.4);
 }
 
+TEST(Options, TheContactOfThePaperHasItsPenalty) {
+  EXPECT_FALSE(parse({}).options->paper_contact);
+  EXPECT_FALSE(parse({"--contact", "smooth"}).options->penalty_ratio);
+  EXPECT_TRUE(parse({"--contact", "paper"}).options->paper_contact);
+  EXPECT_EQ(parse({"--contact", "paper"}).options->penalty_ratio, 0.3);
+  EXPECT_EQ(parse({"--contact", "paper", "--penalty-ratio", "0.1"}).options->penalty_ratio, 0.1);
+  EXPECT_FALSE(parse({"--contact", "paper", "--penalty", "1e10"}).options->penalty_ratio);
+}
+
+TEST(Options, NumbersAreDecimal) {
+  EXPECT_EQ(parse({"--threads", "010"}).options->threads, 10);  // eight, to CLI11
+  EXPECT_EQ(parse({"--threads", "+2"}).options->threads, 2);
+  EXPECT_EQ(parse({"--lattice-shift", "+0.5"}).options->lattice_shift, 0.5);
+  EXPECT_EQ(parse({"--lattice-shift", "-.5"}).options->lattice_shift, -0.5);
+}
+
 TEST(Options, HelpNamesEveryOptionAndEndsWell) {
   const auto parsed = parse({"--help"});
   EXPECT_FALSE(parsed.options);
@@ -126,6 +142,24 @@ TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
                                                        {"stray"},
                                                        {"--until", "1.5x"},
                                                        {"--spacing", "2.4e-3 mm"},
+                                                       {"--until", "0x1"},  // one second, to CLI11
+                                                       {"--until", " 1"},
+                                                       {"--until", ""},
+                                                       {"--spacing", "0x1p-9"},
+                                                       {"--time-step", "0x0"},
+                                                       {"--friction", "0x0"},
+                                                       {"--friction", "1e-400"},
+                                                       {"--friction", "1e400"},
+                                                       {"--penalty", "0x1"},
+                                                       {"--penalty-ratio", "0x0.8"},
+                                                       {"--step-share", "0x0.8"},
+                                                       {"--lattice-shift", "0x0"},
+                                                       {"--lattice-shift", "nan"},
+                                                       {"--frame-interval", "0x1"},
+                                                       {"--threads", "0x2"},
+                                                       {"--threads", "2.0"},
+                                                       {"--contact", "rough"},
+                                                       {"--threads", "1000"},  // which only wait for each other
                                                        {"--penalty", "1", "--penalty-ratio", "0.3"}};
   for (const auto& mistake : mistakes) {
     const auto parsed = parse(mistake);

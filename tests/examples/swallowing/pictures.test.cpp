@@ -140,15 +140,25 @@ TEST(Pictures, TableAndFoldStandBesideThePaper) {
   summary.friction = 0.1;
   summary.time = 2.05;
   summary.fold_time = 1.662;
+  const swallowing::RunSettings settings{{"spacing", "0.0024"}, {"scalar", "float"}};
+  summary.settings = settings;
   swallowing::write_summary(x1 / "summary.json", summary);
+  summary.settings = {{"spacing", "0.0018"}, {"scalar", "float"}};
+  std::filesystem::create_directories(folder.path / "Y1");
+  swallowing::write_summary(folder.path / "Y1/summary.json", summary);
 
-  const auto results = swallowing::read_results(folder.path);
+  const auto results = swallowing::read_results(folder.path, settings);
   ASSERT_TRUE(results[0].summary);
+  EXPECT_EQ(results[0].samples.size(), 205u);
+  EXPECT_FALSE(results[2].summary) << "a case of other settings stands in the table";
+  EXPECT_EQ(results[2].left_out, "spacing 0.0018 in place of 0.0024");
   EXPECT_FALSE(results[3].summary);
   swallowing::write_table2(folder.path / "table2.md", results);
   swallowing::draw_fold(folder.path / "fold.png", results);
   const std::string table = examples::read_file(folder.path / "table2.md");
   EXPECT_NE(table.find("| X1 | X | 0.1 | 1.65 s | 1.662 s | +12 ms |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| Y1 | Y | 0.1 | 1.70 s | other settings |"), std::string::npos) << table;
+  EXPECT_NE(table.find("Case Y1 was run with other settings: spacing 0.0018"), std::string::npos) << table;
   EXPECT_NE(table.find("| Y3 | Y | 0.3 | did not fold | not run |"), std::string::npos) << table;
   EXPECT_GT(Png(folder.path / "fold.png").share([](int r, int g, int b) { return r > 170 && g < 60 && b < 70; }), 1e-3);
 }

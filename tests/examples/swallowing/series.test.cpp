@@ -11,6 +11,7 @@ namespace {
 
 using swallowing::Sample;
 using swallowing::Series;
+using swallowing::TableMark;
 
 Sample sample(int i) {
   Sample s;
@@ -33,6 +34,17 @@ TEST(Series, CanBeReadWhileItGrowsToTheLastBit) {
   }
 }
 
+/// Writes samples 0 to 29 at `path`. Returns the mark behind the 21st, where a checkpoint is written.
+TableMark thirty_samples(const std::filesystem::path& path) {
+  Series series(path);
+  TableMark mark;
+  for (int i = 0; i < 30; ++i) {
+    series.add(sample(i));
+    if (i == 20) mark = series.flush_to_disk();
+  }
+  return mark;
+}
+
 TEST(Series, ResumedAtACheckpointItIsTheSameFile) {
   TestFolder folder;
   const auto whole = folder.path / "whole.csv", resumed = folder.path / "resumed.csv";
@@ -40,18 +52,46 @@ TEST(Series, ResumedAtACheckpointItIsTheSameFile) {
     Series series(whole);
     for (int i = 0; i < 50; ++i) series.add(sample(i));
   }
-  {
-    Series series(resumed);
-    for (int i = 0; i < 30; ++i) series.add(sample(i));
-  }
-  // What a kill leaves: more than the checkpoint knows of, and half a line.
+  const TableMark mark = thirty_samples(resumed);
+  // What a kill leaves: more than the checkpoint knows of, and half a line. What a loss of power leaves: anything
+  // there.
   std::filesystem::resize_file(resumed, std::filesystem::file_size(resumed) - 7);
+  std::filesystem::resize_file(resumed, std::filesystem::file_size(resumed) + 100);
+  TableMark again;
   {
-    Series series(resumed, 20e-3);
+    Series series(resumed, mark);
     ASSERT_EQ(series.samples().size(), 21u);
+    EXPECT_EQ(series.samples().back().values(), sample(20).values());
     for (int i = 21; i < 50; ++i) series.add(sample(i));
+    again = series.flush_to_disk();
   }
   EXPECT_EQ(examples::read_file(resumed), examples::read_file(whole));
+  EXPECT_EQ(Series(whole, again).samples().size(), 50u) << "a resumed series marks as one that was not";
+}
+
+TEST(Series, IsNotResumedWhereItHasLostWhatLiesBeforeTheCheckpoint) {
+  TestFolder folder;
+  const auto path = folder.path / "series.csv";
+  const auto refusal = [&](const TableMark& mark) {
+    return message_of<hmps::InputError>([&] { (void)Series(path, mark); });
+  };
+  const TableMark mark = thirty_samples(path);
+  const std::string whole = examples::read_file(path);
+  for (const std::uint64_t left : {mark.bytes - 1, mark.bytes / 2, std::uint64_t{0}}) {
+    examples::write_atomically(path, std::string_view(whole).substr(0, left));
+    EXPECT_NE(refusal(mark).find("series.csv has " + std::to_string(left) + " of the"), std::string::npos)
+        << refusal(mark);
+    EXPECT_EQ(std::filesystem::file_size(path), left) << "what was left was touched";
+  }
+  std::string changed = whole;
+  changed[mark.bytes / 2] = changed[mark.bytes / 2] == '1' ? '2' : '1';
+  examples::write_atomically(path, changed);
+  EXPECT_NE(refusal(mark).find("no longer"), std::string::npos) << refusal(mark);
+  std::filesystem::remove(path);
+  EXPECT_NE(refusal(mark).find("--resume"), std::string::npos) << refusal(mark);
+  EXPECT_FALSE(std::filesystem::exists(path)) << "a series was begun anew";
+  examples::write_atomically(path, whole);
+  EXPECT_EQ(Series(path, mark).samples().size(), 21u);
 }
 
 TEST(Series, WithoutResumeItBeginsAnew) {
@@ -74,6 +114,18 @@ TEST(Series, KeepsWhatADivergingRunLeft) {
   ASSERT_EQ(read.size(), 1u);
   EXPECT_TRUE(std::isinf(read[0].kinetic_energy));
   EXPECT_TRUE(std::isnan(read[0].smallest_j));
+}
+
+TEST(Series, AMalformedLineIsRefused) {
+  TestFolder folder;
+  const auto path = folder.path / "series.csv";
+  { Series(path).add(sample(1)); }
+  const std::string whole = examples::read_file(path);
+  const std::size_t line = whole.find('\n') + 1;
+  for (const char* damage : {"x", ",", "1x,", " "}) {
+    examples::write_atomically(path, whole.substr(0, line) + damage + whole.substr(line));
+    EXPECT_THROW((void)swallowing::read_series(path), hmps::InputError) << damage;
+  }
 }
 
 TEST(Series, OtherFilesAreRefused) {

@@ -34,6 +34,7 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
   s.wall_seconds = 95;
   s.particle_steps_per_second = 1e7;
   s.contact_share = 0.3;
+  s.settings = {{"spacing", "0.0024"}, {"region H", "yes"}};
   swallowing::write_summary(path, s);
 
   const auto json = nlohmann::json::parse(examples::read_file(path));
@@ -59,6 +60,7 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
 
   const auto read = swallowing::read_summary(path);
   ASSERT_TRUE(read);
+  EXPECT_EQ(read->settings, s.settings);
   EXPECT_EQ(read->fold_time, s.fold_time);
   EXPECT_FALSE(read->fold_time_base);
   EXPECT_EQ(read->det_f->min, 0.91);

@@ -51,6 +51,23 @@ TYPED_TEST(ContactTest, PushesTheBodiesApartAndSumsToZero) {
   EXPECT_GT(up, S(0));
   const double volume = std::pow(1e-3, D);
   EXPECT_NEAR(contact.force_on_first(pair)[D - 1], -up * volume, 1e-4 * up * volume);
+  std::size_t touches = 0;
+  hmps::Vector<double, D> on_first = hmps::Vector<double, D>::Zero();
+  contact.for_each_touch([&](const hmps::Touch<D>& touch) {
+    ++touches;
+    EXPECT_EQ(touch.pair, pair);
+    const bool block = std::find(pile.block.all.begin(), pile.block.all.end(), touch.slave) != pile.block.all.end();
+    EXPECT_EQ(touch.slave_is_first, !block) << "the block is the second of the pair and stands on the first";
+    EXPECT_NEAR(touch.normal.norm(), 1, 1e-6);
+    EXPECT_GT(touch.normal[D - 1] * (block ? 1 : -1), 0) << "from the wall to the slave";
+    const double normal = touch.force.dot(touch.normal);
+    // k = 0.3 rho / dt^2; friction never exceeds its limit. Rounding of single precision.
+    EXPECT_NEAR(normal, 0.3 * 1000 / (dt * dt) * touch.penetration * volume, 1e-5 * normal);
+    EXPECT_LE((touch.force - normal * touch.normal).norm(), 0.3 * normal * (1 + 1e-5));
+    on_first += (touch.slave_is_first ? 1. : -1.) * touch.force;
+  });
+  EXPECT_EQ(touches, report.contacts);
+  EXPECT_LT((on_first - contact.force_on_first(pair)).norm(), 1e-12 * up * volume);
   // Reactions act at the masters' centres, so the torque need not vanish; how much of it is left is
   // recorded: its arm, in spacings.
   if constexpr (D == 3) {

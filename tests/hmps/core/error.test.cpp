@@ -17,6 +17,7 @@ static_assert(!std::is_base_of_v<hmps::InputError, hmps::StateError>);
 
 TEST(Error, MessageJoinsItsParts) {
   EXPECT_EQ(hmps::message("particle ", 7u, " lies at ", 0.25, " m"), "particle 7 lies at 0.25 m");
+  EXPECT_EQ(hmps::message("E", ' ', 3, ')'), "E 3)");
   EXPECT_EQ(hmps::message(), "");
 }
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <string>
+
+#include "files.hpp"
+
+namespace examples {
+
+/// Keeps other processes, and other threads that ask for it, from writing into a folder while it lives: two runs that
+/// write into one folder would spoil each other's results. The system takes it back however the process ends.
+class FolderLock {
+ public:
+  enum class Taken { fail, wait };
+
+  /// Locks the folder at `path`, which must exist, by its file .lock. Where another process has locked it, throws
+  /// `InputError` that names folder and process, or waits until it is free. Where the file system knows no locks, says
+  /// so on standard error and goes on.
+  explicit FolderLock(const fs::path& path, Taken taken = Taken::fail) {
+    const fs::path name = path / ".lock";
+    file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    hmps::require(file_ >= 0, "cannot write ", name.string(), ": ", std::strerror(errno),
+                  "; check the permissions of the output folder");
+    int problem = 0;
+    do problem = ::flock(file_, taken == Taken::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+    while (problem == EINTR);
+    if (problem == EWOULDBLOCK) {
+      const std::string owner = content();
+      ::close(file_);
+      throw hmps::InputError(hmps::message("the folder ", path.string(), " is being written by another run",
+                                           owner.empty() ? "" : hmps::message(" (process ", owner, ")"),
+                                           "; wait for its end, or choose another folder with --out"));
+    }
+    if (problem != 0)
+      std::cerr << hmps::message("warning: cannot lock ", name.string(), ": ", std::strerror(problem),
+                                 "; see yourself that no other run writes there\n");
+    const std::string process = std::to_string(::getpid());
+    // Only for the message above: without it the lock holds all the same.
+    if (::ftruncate(file_, 0) == 0) static_cast<void>(::pwrite(file_, process.data(), process.size(), 0) == 0);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock() { ::close(file_); }
+
+ private:
+  [[nodiscard]] std::string content() const {
+    std::array<char, 32> text{};
+    const ssize_t size = ::pread(file_, text.data(), text.size(), 0);
+    return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
+  }
+  int file_ = -1;
+};
+
+}  // namespace examples

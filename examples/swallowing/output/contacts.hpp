@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "output/observe.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+
+/// What organs do to each other and how the epiglottis lies, as contacts.csv has it, by which the mechanisms of
+/// section 3.5 of the paper can be told apart.
+namespace swallowing {
+
+/// The organs that may turn the epiglottis, in the order of the columns `moment_...`.
+inline constexpr std::array turning{Organ::tongue, Organ::pharynx, Organ::larynx, Organ::vallecula};
+
+/// The name of an organ as part of a column's.
+[[nodiscard]] inline std::string column_name(Organ organ) {
+  std::string text(name(organ));
+  std::replace(text.begin(), text.end(), ' ', '_');
+  return text;
+}
+[[nodiscard]] inline std::string column_name(const ContactPair& pair) {
+  return column_name(pair.first) + '-' + column_name(pair.second);
+}
+
+/// The first line of contacts.csv.
+[[nodiscard]] inline std::string contacts_header(const Scene& scene) {
+  std::string header = "time,centre_height,tip_height,leaf_to_larynx,glottis";
+  for (const Organ organ : turning) header += ",moment_" + column_name(organ);
+  for (const ContactPair& pair : scene.contacts)
+    for (const char* what : {"area", "normal", "tangential"}) header += ',' + column_name(pair) + '_' + what;
+  return header;
+}
+
+namespace detail {
+
+/// Gap in m between the upper half of the leaf and the larynx: of the surfaces of their outermost particles, taken as
+/// balls of the spacing. Infinite where there are none.
+[[nodiscard]] inline double leaf_to_larynx(const Scene& scene, const std::vector<Eigen::Vector3d>& x,
+                                           const Eigen::Vector3d& middle, const Eigen::Vector3d& tipward) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ContactPair& pair : scene.contacts)
+    if (pair.first == Organ::epiglottis && pair.second == Organ::larynx)
+      for (const hmps::Index i : pair.first_slaves)
+        if ((x[i] - middle).dot(tipward) > 0)
+          for (const hmps::Index j : pair.second_slaves) least = std::min(least, (x[i] - x[j]).squaredNorm());
+  return std::sqrt(least) - scene.spacing;
+}
+
+/// Gap in m between the arytenoids, regions D, from side to side. Infinite where they have no particles.
+[[nodiscard]] inline double glottis(const Scene& scene, const std::vector<Eigen::Vector3d>& x) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double left = -infinite, right = infinite;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (scene.region[i] < 0) continue;
+    const std::string& region = scene.regions[static_cast<std::size_t>(scene.region[i])].name;
+    if (region == "D left") left = std::max(left, x[i][1]);
+    if (region == "D right") right = std::min(right, x[i][1]);
+  }
+  return right - left - scene.spacing;
+}
+
+}  // namespace detail
+
+/// A row of contacts.csv for the present state and the contact of the step before. Heights and gaps in mm. Moments in
+/// mN m, about the middle of the leaf, of what presses on its upper half; positive turns the tip backwards and down.
+/// Of each pair of organs: the area in mm2 that touches, as the mean of what the touching slaves of both organs cover
+/// at rest; the sums in N of the normal and of the friction forces on them.
+template <class S>
+[[nodiscard]] std::vector<double> observe_contacts(Simulation<S>& simulation, const Scene& scene) {
+  const auto& x = simulation.position_array();
+  const Eigen::Vector3d middle = mean_position(x, scene.centre), tip = mean_position(x, scene.tip),
+                        tipward = tip - middle;
+  struct Load {
+    double touching = 0, normal = 0, tangential = 0;
+  };
+  std::vector<Load> loads(scene.contacts.size());
+  std::array<double, turning.size()> moments{};
+  simulation.for_each_touch([&](const hmps::Touch<3>& touch) {
+    const ContactPair& pair = scene.contacts[touch.pair];
+    Load& load = loads[touch.pair];
+    const double normal = touch.force.dot(touch.normal);
+    load.touching += 1;
+    load.normal += normal;
+    load.tangential += (touch.force - normal * touch.normal).norm();
+    const Eigen::Vector3d arm = x[touch.slave] - middle;
+    if (pair.first != Organ::epiglottis || arm.dot(tipward) <= 0) return;
+    const auto by = std::find(turning.begin(), turning.end(), pair.second);
+    if (by == turning.end()) return;
+    const double sign = touch.slave_is_first ? 1 : -1;  // on the leaf, as slave or as wall
+    moments[static_cast<std::size_t>(by - turning.begin())] += sign * 1e3 * arm.cross(touch.force)[1];
+  });
+  std::vector<double> row{simulation.time(), 1e3 * middle[2], 1e3 * tip[2],
+                          1e3 * detail::leaf_to_larynx(scene, x, middle, tipward), 1e3 * detail::glottis(scene, x)};
+  row.insert(row.end(), moments.begin(), moments.end());
+  for (const Load& load : loads) {
+    row.push_back(load.touching / 2 * 1e6 * scene.spacing * scene.spacing);
+    row.push_back(load.normal);
+    row.push_back(load.tangential);
+  }
+  return row;
+}
+
+}  // namespace swallowing

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "output/checkpoint.hpp"
+#include "output/frames.hpp"
+#include "output/pictures.hpp"
+#include "output/series.hpp"
+
+namespace swallowing {
+
+/// What the run of a case leaves of its course in its folder: the series, the contacts, the snapshots for its sheet,
+/// and frames. A checkpoint holds the state alone. So it is written after all of these are on the disk and keeps how
+/// far they had come, and a run is resumed only where they still are what they were.
+struct History {
+  Series series;
+  TimeTable contacts;
+  Snapshots snapshots;
+  std::optional<Frames> frames;
+
+  /// Begins anew and removes what an earlier run has left; or continues behind the checkpoint `resumed`. Throws
+  /// `InputError` where anything from before it is lost or changed.
+  History(const std::filesystem::path& folder, const std::string& contacts_header, bool with_frames,
+          const std::optional<Checkpoint>& resumed)
+      : series(begin(folder, resumed) / "series.csv", mark("series", resumed)),
+        contacts(folder / "contacts.csv", contacts_header, mark("contacts", resumed)),
+        snapshots(folder / "snapshots", time(resumed)) {
+    for (std::size_t panel = 0; resumed && panel < picture_times.size(); ++panel)
+      hmps::require(picture_times[panel] > resumed->time + 5e-10 || snapshots.load(panel), "in ",
+                    (folder / "snapshots").string(), " the moment at ", picture_times[panel],
+                    " s is missing, which was before the checkpoint; put its file back, or start anew without "
+                    "--resume");
+    if (resumed) frames_before_ = resumed->value<std::uint64_t>("frames");
+    if (with_frames) frames.emplace(folder, time(resumed), frames_before_);
+  }
+
+  /// Writes all to the disk, and into `checkpoint` how far it has come.
+  void flush(Checkpoint& checkpoint) {
+    checkpoint.set("series", std::array{series.flush_to_disk()});
+    checkpoint.set("contacts", std::array{contacts.flush_to_disk()});
+    checkpoint.set("frames", std::uint64_t{frames ? frames->list().size() : frames_before_});
+  }
+
+ private:
+  /// Removes what is no longer true once the run has begun; first what a run would be resumed from.
+  static const std::filesystem::path& begin(const std::filesystem::path& folder,
+                                            const std::optional<Checkpoint>& resumed) {
+    for (const char* file : {"checkpoint.bin", "summary.json", "sheet.png", "frames.pvd"})
+      if (!resumed) std::filesystem::remove(folder / file);
+    return folder;
+  }
+  [[nodiscard]] static std::optional<TableMark> mark(const std::string& table,
+                                                     const std::optional<Checkpoint>& resumed) {
+    if (!resumed) return std::nullopt;
+    return resumed->value<TableMark>(table);
+  }
+  [[nodiscard]] static std::optional<double> time(const std::optional<Checkpoint>& resumed) {
+    if (!resumed) return std::nullopt;
+    return resumed->time;
+  }
+
+  std::uint64_t frames_before_ = 0;  ///< of the run that is resumed
+};
+
+}  // namespace swallowing
