@@ -21,12 +21,14 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   using Vector = hmps::Vector<double, 3>;
   const double young = 20e3, poisson = 0.45, rho = 1000, squeeze = 0.25;  // Pa, -, kg/m3, share of the height
 
-  // The body is the lattice in its surface, without what hangs by a few bonds. Behind it comes the plate, above it.
+  // The body is the lattice in its surface, without what hangs by a few bonds or not at all. Behind it comes the plate,
+  // above it.
   const auto [lower, upper] = hmps::bounds(mesh);
   const double height = upper[2] - lower[2], volume = hmps::volume(mesh), l0 = std::cbrt(volume / particles);
   const auto sites = hmps::fill_lattice(mesh, l0);
   std::vector<Vector> reference;
-  for (const auto i : hmps::remove_weak(hmps::vectors(sites), {.spacing = l0})) reference.push_back(sites[i]);
+  for (const auto i : hmps::remove_weak(hmps::vectors(sites), {.spacing = l0, .smallest_piece = 0.5}))
+    reference.push_back(sites[i]);
   const std::size_t n = reference.size();
   const double beyond = 2 * l0 + squeeze * height;  // since what is pressed grows broader
   const Vector start(lower[0] - beyond, lower[1] - beyond, upper[2]);
