@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <hmps/hmps.hpp>
-#include <optional>
+#include <algorithm>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
+
+#include "scenes/body.hpp"
 
 namespace stability {
 
@@ -31,27 +30,8 @@ template <class S>
   return points;
 }
 
-/// The state of particles in `S`, at rest in the reference configuration.
 template <class S>
-struct Body {
-  std::vector<Vector> reference;
-  std::vector<hmps::Vector<S, 3>> position, velocity, load, carry;
-  std::vector<hmps::Matrix<S, 3>> gradient;
-
-  explicit Body(std::vector<Vector> points) : reference(std::move(points)) {
-    const hmps::Vector<S, 3> zero = hmps::Vector<S, 3>::Zero();
-    for (const Vector& X : reference) position.push_back(X.cast<S>());
-    velocity.assign(size(), zero);
-    load = carry = velocity;
-    gradient.assign(size(), hmps::Matrix<S, 3>::Identity());
-  }
-  [[nodiscard]] std::size_t size() const { return reference.size(); }
-  [[nodiscard]] auto X() const { return hmps::vectors(reference); }
-  [[nodiscard]] auto x() { return hmps::vectors(position); }
-  [[nodiscard]] auto v() { return hmps::vectors(velocity); }
-  [[nodiscard]] auto f() { return hmps::vectors(load); }
-  [[nodiscard]] auto F() { return hmps::matrices(gradient); }
-};
+using Body = scenes::Body<3, S>;
 
 /// How a run ended.
 struct Ending {
@@ -104,8 +84,8 @@ template <class S>
 
 /// The step to use at rest for a force on a body.
 template <class S, class Force>
-[[nodiscard]] double stable(Body<S>& body, Force& force, double rho, double l0) {
-  return hmps::stable_step(force, body.x(), body.v(), rho, {.spacing = l0}).step;
+[[nodiscard]] double stable(Body<S>& body, Force& force, double rho) {
+  return hmps::stable_step(force, body.x(), body.v(), rho, {.spacing = body.spacing}).step;
 }
 
 }  // namespace stability

@@ -4,11 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "body.hpp"
-#include "parts.hpp"
-
-#include "hmps/terms/record.hpp"
-#include "hmps/time/symplectic_euler.hpp"
+#include "stability/body.hpp"
+#include "stability/groups.hpp"
 
 namespace stability {
 namespace {
@@ -29,15 +26,12 @@ class Meeting {
 
   explicit Meeting(const Settings& s)
       : settings_(s),
-        body_(points(s)),
-        bonds_(body_.X().part(0, cube_size), {.spacing = spacing}),
-        lower_(body_.X().part(s.held ? 0 : cube_size, s.held ? cube_size : body_.size() - cube_size),
-               {.spacing = spacing}),
+        body_(spacing, points(s)),
+        bonds_(cube(body_.X()), {.spacing = spacing}),
+        lower_(partner(body_.X()), {.spacing = spacing}),
         upper_force_(bonds_, hmps::elastic(law(s.stiffness)), hmps::artificial(young / 2 * s.stiffness),
-                     hmps::record(body_.F().part(0, cube_size))),
-        lower_force_(
-            lower_, hmps::elastic(law(1)), hmps::artificial(young / 2),
-            hmps::record(body_.F().part(s.held ? 0 : cube_size, s.held ? cube_size : body_.size() - cube_size))),
+                     hmps::record(cube(body_.F()))),
+        lower_force_(lower_, hmps::elastic(law(1)), hmps::artificial(young / 2), hmps::record(partner(body_.F()))),
         contact_({.spacing = spacing,
                   .density = s.contact_density,
                   .friction = s.friction,
@@ -68,24 +62,22 @@ class Meeting {
 
   /// The stable step of the parts on their own.
   [[nodiscard]] double stable() {
-    const auto part = [&](auto& force, std::size_t first, std::size_t count) {
-      return hmps::stable_step(force, body_.x().part(first, count), body_.v().part(first, count), density_[first],
-                               {.spacing = spacing})
-          .step;
-    };
-    double dt = part(upper_force_, 0, cube_size);
-    if (!settings_.held) dt = std::min(dt, part(lower_force_, cube_size, body_.size() - cube_size));
-    return dt;
+    const auto x = body_.x(), v = body_.v();
+    const hmps::StableStepSettings settings{.spacing = spacing};
+    const double dt = hmps::stable_step(upper_force_, cube(x), cube(v), density_[0], settings).step;
+    if (settings_.held) return dt;
+    return std::min(dt, hmps::stable_step(lower_force_, partner(x), partner(v), density_[cube_size], settings).step);
   }
 
   void step(double dt) {
     const auto x = body_.x(), v = body_.v(), f = body_.f();
     const auto rho = hmps::scalars(density_);
-    for (auto& load : body_.load) load.setZero();
-    forces(x, v, f);
+    body_.unload();
+    upper_force_(cube(x), cube(v), cube(f));
+    if (!settings_.held) lower_force_(partner(x), partner(v), partner(f));
     hmps::kick(v, f, rho, dt);
     hold();
-    for (auto& load : body_.load) load.setZero();
+    body_.unload();
     const auto report = contact_(x, v, body_.F(), dt, f);
     deep_ += report.deep;
     contacts_ += report.contacts;
@@ -97,15 +89,14 @@ class Meeting {
   /// Kinetic, strain and artificial energy in J.
   [[nodiscard]] double energy() {
     const double volume = spacing * spacing * spacing;
+    const auto x = body_.x();
+    const auto F = body_.F();
     double sum = hmps::kinetic_energy(body_.v(), hmps::scalars(density_), volume) +
-                 hmps::strain_energy(body_.F().part(0, cube_size), law(settings_.stiffness), volume) +
-                 hmps::artificial_energy(bonds_, body_.x().part(0, cube_size), body_.F().part(0, cube_size),
-                                         young / 2 * settings_.stiffness, volume);
-    const std::size_t rest = body_.size() - cube_size;
+                 hmps::strain_energy(cube(F), law(settings_.stiffness), volume) +
+                 hmps::artificial_energy(bonds_, cube(x), cube(F), young / 2 * settings_.stiffness, volume);
     if (!settings_.held)
-      sum += hmps::strain_energy(body_.F().part(cube_size, rest), law(1), volume) +
-             hmps::artificial_energy(lower_, body_.x().part(cube_size, rest), body_.F().part(cube_size, rest),
-                                     young / 2, volume);
+      sum += hmps::strain_energy(partner(F), law(1), volume) +
+             hmps::artificial_energy(lower_, partner(x), partner(F), young / 2, volume);
     return sum;
   }
   [[nodiscard]] bool sound(double speed_limit = std::numeric_limits<double>::infinity()) {
@@ -147,11 +138,14 @@ class Meeting {
       if (c == 0 || c == n - 1) return true;
     return false;
   }
-  template <class X, class V, class F>
-  void forces(const X& x, const V& v, const F& f) {
-    upper_force_(x.part(0, cube_size), v.part(0, cube_size), f.part(0, cube_size));
-    const std::size_t rest = body_.size() - cube_size;
-    if (!settings_.held) lower_force_(x.part(cube_size, rest), v.part(cube_size, rest), f.part(cube_size, rest));
+  /// The part of a view that is the cube, and that which its partner is, if it moves; if it is held, the cube again.
+  template <class View>
+  [[nodiscard]] static auto cube(const View& view) {
+    return view.part(0, cube_size);
+  }
+  template <class View>
+  [[nodiscard]] auto partner(const View& view) const {
+    return settings_.held ? cube(view) : view.part(cube_size, view.size() - cube_size);
   }
   void hold() {
     for (std::size_t i = cube_size; settings_.held && i < body_.size(); ++i) body_.velocity[i].setZero();

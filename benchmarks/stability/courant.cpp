@@ -4,135 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "body.hpp"
-#include "parts.hpp"
-
-#include "hmps/terms/record.hpp"
-#include "hmps/time/symplectic_euler.hpp"
+#include "stability/body.hpp"
+#include "stability/groups.hpp"
+#include "stability/sheet.hpp"
 
 namespace stability {
 namespace {
-
-/// One scene whose largest step is measured.
-struct Case {
-  std::string group = {}, name = {};
-  int layers = 8;        ///< particles through the sheet
-  double radius = 1.75;  ///< r_e / l0
-  double modulus = 1;    ///< E_hat / E
-  double ratio = 300;    ///< kappa / mu
-  double stretch = 1;    ///< along z, at constant volume
-  double viscosity = 0;  ///< m2/s
-  double penalty = 0;    ///< k dt_c^2 / rho, dt_c the limit without contact; two bodies then
-  double dt_c = 0;       ///< s
-  bool held = false;     ///< the second body does not move
-};
-
-/// The composed force of a case, on one body or two that are pressed together.
-template <class S>
-class Tissue {
- public:
-  explicit Tissue(const Case& c)
-      : body_(points(c)),
-        movable_(c.held ? split(c) : body_.size()),
-        law_(hmps::MooneyRivlin<>::from_young(young, c.ratio * young / 6)),
-        bonds_(body_.X(), {.spacing = spacing, .radius_ratio = c.radius},
-               [half = split(c)](std::size_t i, std::size_t j) { return (i < half) == (j < half); }),
-        elastic_(bonds_, hmps::elastic(law_)),
-        stabiliser_(bonds_, hmps::artificial(c.modulus * young)),
-        viscous_(bonds_, hmps::viscous(density, c.viscosity)),
-        whole_(bonds_, hmps::elastic(law_), hmps::artificial(c.modulus * young), hmps::viscous(density, c.viscosity),
-               hmps::record(body_.F())),
-        contact_({.spacing = spacing, .density = density, .stiffness = stiffness(c)}) {
-    const double across = 1 / std::sqrt(c.stretch);
-    for (auto& x : body_.position) x = x.cwiseProduct(Vector(across, across, c.stretch).cast<S>());
-    if (c.penalty > 0) press(c);
-  }
-
-  Body<S>& body() { return body_; }
-  [[nodiscard]] const auto& bonds() const { return bonds_; }
-  [[nodiscard]] bool touches() const { return !skin_[0].empty(); }
-  [[nodiscard]] bool moves(std::size_t i) const { return i < movable_; }
-  [[nodiscard]] double sound() const { return hmps::sound_speed(law_, density); }
-
-  template <class X, class V, class F>
-  void operator()(const X& x, const V& v, const F& f) {
-    whole_(x, v, f);
-    touch(x, v, f);
-  }
-  template <class X, class V, class F>
-  void touch(const X& x, const V& v, const F& f) {
-    if (touches()) contact_(x, v, body_.F(), 2e-6, f);
-  }
-
-  [[nodiscard]] std::vector<hmps::StepCause> causes(const hmps::StableStep& found,
-                                                    const hmps::StableStepSettings& settings) {
-    const auto contact = [this](const auto& x, const auto& v, const auto& f) { touch(x, v, f); };
-    return hmps::step_causes(found, body_.x(), body_.v(), density, settings, hmps::NamedForce{"elastic", elastic_},
-                             hmps::NamedForce{"stabiliser", stabiliser_}, hmps::NamedForce{"viscosity", viscous_},
-                             hmps::NamedForce{"contact", contact});
-  }
-
- private:
-  using List = hmps::BondList<S, 3>;
-  static constexpr int side = 10;
-  static constexpr double pressure = 200;  ///< Pa, small against Young's modulus: what is pressed must not buckle
-
-  static std::size_t split(const Case& c) { return static_cast<std::size_t>(side * side * c.layers); }
-  static std::vector<Vector> points(const Case& c) {
-    // Layers lie along x, so that the two bodies follow each other in memory.
-    return lattice(c.penalty > 0 ? 2 * c.layers : c.layers, side, side, spacing, Vector::Constant(0.01));
-  }
-  static hmps::PenaltyStiffness stiffness(const Case& c) {
-    return c.penalty > 0 ? hmps::PenaltyStiffness::fixed(c.penalty * density / (c.dt_c * c.dt_c))
-                         : hmps::PenaltyStiffness::ratio(0.3);
-  }
-  /// Moves the second body towards the first until the contact presses it back by `pressure`.
-  void press(const Case& c) {
-    std::vector<std::size_t> second;
-    for (std::size_t i = 0; i < body_.size(); ++i) {
-      const auto layer = static_cast<int>(i) / (side * side);
-      const std::size_t half = layer < c.layers ? 0 : 1;
-      if (half == 1) second.push_back(i);
-      const int depth = half == 0 ? c.layers - 1 - layer : layer - c.layers;
-      if (depth < 1) skin_[half].push_back(static_cast<hmps::Index>(i));
-      if (depth < 3) wall_[half].push_back(static_cast<hmps::Index>(i));
-    }
-    const auto a = contact_.add_organ({"first", skin_[0], wall_[0]});
-    const auto b = contact_.add_organ({"second", skin_[1], wall_[1]});
-    contact_.add_pair(a, b);
-    const auto start = body_.position;
-    double open = -0.2 * spacing, closed = 0.2 * spacing;
-    while (closed - open > 1e-12) {
-      const double shift = (open + closed) / 2;
-      body_.position = start;
-      for (const std::size_t i : second) body_.position[i][0] -= static_cast<S>(shift);
-      for (auto& load : body_.load) load.setZero();
-      touch(body_.x(), body_.v(), body_.f());
-      double push = 0;
-      for (const std::size_t i : second) push += static_cast<double>(body_.load[i][0]);
-      (push * spacing / (side * side) > pressure ? closed : open) = shift;
-    }
-  }
-
-  Body<S> body_;
-  std::size_t movable_;  ///< so many particles, the first ones, move
-  hmps::MooneyRivlin<> law_;
-  List bonds_;
-  hmps::InternalForce<List, hmps::Elastic<hmps::MooneyRivlin<>>> elastic_;
-  hmps::InternalForce<List, hmps::Artificial<double>> stabiliser_;
-  hmps::InternalForce<List, hmps::Viscous> viscous_;
-  decltype(hmps::internal_force(std::declval<const List&>(), std::declval<hmps::Elastic<hmps::MooneyRivlin<>>>(),
-                                std::declval<hmps::Artificial<double>>(), std::declval<hmps::Viscous>(),
-                                hmps::record(std::declval<hmps::MatrixView<S, 3>>()))) whole_;
-  hmps::MetaballContact<S, 3> contact_;
-  std::vector<hmps::Index> skin_[2], wall_[2];
-};
 
 /// Whether noise of velocity grows by changing its sign at each step. What grows without is physical, such as buckling.
 /// In contact all must stay so small that no face opens, and the first motion to have grown decides: there others
 /// grow too.
 template <class S>
-bool alternates(Tissue<S>& scene, double dt) {
+bool alternates(Sheet<S>& scene, double dt) {
   constexpr bool single = std::is_same_v<S, float>;
   const double noise = single ? 1e-3 : 1e-9, most = noise * (single ? 300 : scene.touches() ? 1e4 : 1e5);
   const int steps = 1500, every = scene.touches() ? 1 : 20;
@@ -177,7 +60,7 @@ bool alternates(Tissue<S>& scene, double dt) {
 
 /// The largest step that holds, to 0.2 %.
 template <class S>
-double measured(Tissue<S>& scene, double guess) {
+double measured(Sheet<S>& scene, double guess) {
   const auto held = [&](double dt) { return !alternates(scene, dt); };
   double low = 0.8 * guess, high = 1.2 * guess;
   while (!held(low)) high = low, low *= 0.8;
@@ -198,7 +81,7 @@ struct Found {
 };
 template <class S>
 Found find(const Case& c) {
-  Tissue<S> scene(c);
+  Sheet<S> scene(c);
   hmps::StableStepSettings settings{.spacing = spacing};
   settings.moves = [&scene](std::size_t i) { return scene.moves(i); };
   if (c.penalty > 0) settings.perturbation = 1e-6;  // far less than the penetration
@@ -291,7 +174,7 @@ Table refresh(bool quick) {
   hmps::StableStep kept;
   for (int k = 0; k <= count; ++k) {
     const double stretch = 1 + 2.0 * k / count;
-    Tissue<double> scene({.layers = 4, .stretch = stretch});
+    Sheet<double> scene({.layers = 4, .stretch = stretch});
     hmps::StableStepSettings settings{.spacing = spacing};
     const auto search = [&] { return hmps::stable_step(scene, scene.body().x(), scene.body().v(), density, settings); };
     const auto fresh = search();

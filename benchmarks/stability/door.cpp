@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "body.hpp"
-#include "parts.hpp"
+#include "stability/body.hpp"
+#include "stability/groups.hpp"
 
 namespace stability {
 namespace {
@@ -52,7 +52,7 @@ Table door() {
   refuse("a position that is not a number, lattice", [&] { bond<Lattice>(absent); });
   refuse("a position that is not a number, list", [&] { bond<List>(absent); });
   refuse("a force that is not finite, stable_step", [&] {
-    Body<double> body(cube);
+    Body<double> body(spacing, cube);
     const auto force = [](const auto&, const auto&, const auto& f) {
       f(5, 0) = std::numeric_limits<double>::infinity();
     };

@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "body.hpp"
-#include "parts.hpp"
-
-#include "hmps/time/symplectic_euler.hpp"
+#include "stability/body.hpp"
+#include "stability/groups.hpp"
 
 namespace stability {
 namespace {
@@ -40,13 +38,10 @@ Drift endure(long steps, double rate, bool compensated) {
   auto force = hmps::internal_force(bonds, hmps::elastic(tissue), hmps::artificial(young / 2));
   // The velocity at the time of the positions is the mean of those half a step before and behind.
   std::vector<Vector> middle(n);
+  // The diagnostics look at the state in double, whatever the kernels are in.
+  const hmps::BondList<double, 3> exact(hmps::vectors(reference), {.spacing = spacing});
   const double volume = spacing * spacing * spacing, mass = density * volume;
   const auto energy = [&] {
-    // The diagnostics look at the state in double, whatever the kernels are in.
-    const hmps::BondList<double, 3>& exact = [&]() -> const hmps::BondList<double, 3>& {
-      static const hmps::BondList<double, 3> list(hmps::vectors(reference), {.spacing = spacing});
-      return list;
-    }();
     hmps::deformation_gradient(exact, x, hmps::matrices(gradient));
     return hmps::kinetic_energy(hmps::vectors(middle), density, volume) +
            hmps::strain_energy(hmps::matrices(gradient), tissue, volume) +

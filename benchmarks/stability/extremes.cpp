@@ -5,10 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "body.hpp"
-#include "parts.hpp"
-
-#include "hmps/terms/record.hpp"
+#include "stability/body.hpp"
+#include "stability/groups.hpp"
 
 namespace stability {
 namespace {
@@ -29,11 +27,11 @@ std::string law_name() {
 /// A cube that is let go after its height was multiplied by `factor`, in the paper's viscosity, in steps of `share`.
 template <class S, class Law>
 std::vector<std::string> let_go(const Law& law, double factor, double part) {
-  Body<S> body(lattice(6, 6, 6, spacing, Vector::Zero()));
+  Body<S> body(spacing, lattice(6, 6, 6, spacing, Vector::Zero()));
   const hmps::LatticeBonds<S, 3> bonds(body.X(), {.spacing = spacing});
   auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(young), hmps::viscous(density, 2e-3),
                                     hmps::record(body.F()));
-  const double dt = part * stable(body, force, density, spacing);
+  const double dt = part * stable(body, force, density);
   for (auto& x : body.position) x[2] *= static_cast<S>(factor);
   const Ending ending = run(body, force, density, dt, 0.05, 500.0, may_invert<Law>);
   double least = 1e300, most = -1e300;
@@ -95,11 +93,11 @@ template <class S, class Law>
 std::vector<std::string> squeeze(const Law& law, double last) {
   const int side = 10;
   const double height = spacing * (side - 1);
-  Body<S> body(lattice(side, side, side, spacing, Vector::Zero()));
+  Body<S> body(spacing, lattice(side, side, side, spacing, Vector::Zero()));
   const hmps::LatticeBonds<S, 3> bonds(body.X(), {.spacing = spacing});
   auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(young), hmps::viscous(density, 2e-3),
                                     hmps::record(body.F()));
-  const double dt = 0.5 * share * stable(body, force, density, spacing), speed = 1;
+  const double dt = 0.5 * share * stable(body, force, density), speed = 1;
   Ends<S> ends(body, 0.5 * spacing, height - 0.5 * spacing);
   const double turn = (1 - last) * height / speed;
   double now = 1;
@@ -127,10 +125,10 @@ std::vector<std::string> squeeze(const Law& law, double last) {
 template <class S, class Law>
 Ending twist(const Law& law, double omega, double duration) {
   const double l0 = 1.0 / 6, rho = 1100, length = 6;
-  Body<S> body(lattice(6, 6, 38, l0, Vector(-2.5 * l0, -2.5 * l0, -1.5 * l0)));
+  Body<S> body(l0, lattice(6, 6, 38, l0, Vector(-2.5 * l0, -2.5 * l0, -1.5 * l0)));
   const hmps::LatticeBonds<S, 3> bonds(body.X(), {.spacing = l0});
   auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(8.5e6), hmps::record(body.F()));
-  const double dt = share * stable(body, force, rho, l0);
+  const double dt = share * stable(body, force, rho);
   Ends<S> ends(body, 0, 2 * length);
   for (std::size_t i = 0; i < body.size(); ++i) {
     const Vector& X = body.reference[i];
@@ -158,11 +156,12 @@ std::vector<std::string> twist_to_failure(const Law& law, bool quick) {
 template <class S, class Law>
 std::vector<std::string> bend(const Law& law, bool quick) {
   const int across = 4, along = 42;
-  Body<S> body(lattice(across, across, along, spacing, Vector(-1.5 * spacing, -1.5 * spacing, -0.5 * spacing)));
+  Body<S> body(spacing,
+               lattice(across, across, along, spacing, Vector(-1.5 * spacing, -1.5 * spacing, -0.5 * spacing)));
   const hmps::LatticeBonds<S, 3> bonds(body.X(), {.spacing = spacing});
   auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(young / 2),
                                     hmps::viscous(density, 2e-3), hmps::record(body.F()));
-  const double dt = share * stable(body, force, density, spacing);
+  const double dt = share * stable(body, force, density);
   const double length = spacing * (along - 2), duration = 0.2, most = quick ? 20 : 360;
   Ends<S> ends(body, spacing, length - 1.5 * spacing);
   double degrees = 0;

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "report.hpp"
-#include "rules.hpp"
+#include "tradeoff/rules.hpp"
 
 namespace tradeoff {
 
@@ -89,7 +88,7 @@ struct Opinion {
               " tried beside the same standard. What errs less in one scene and more in another may rest "
               "on errors that happen to cancel.");
   const auto part = [&](const char* title, const std::vector<std::string>& lines) {
-    if (!lines.empty()) text += std::string("\n### ") + title + "\n\n" + detail::list(lines);
+    if (!lines.empty()) text += std::string("\n### ") + title + "\n\n" + bullets(lines);
   };
   part("Errs less", less);
   part("Makes no difference to errors", none);

@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <hmps/hmps.hpp>
-#include <limits>
 #include <numbers>
+#include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "meter.hpp"
-#include "scenes.hpp"
-#include "timoshenko.hpp"
+#include "scenes/timoshenko.hpp"
+#include "tradeoff/meter.hpp"
+#include "tradeoff/scenes.hpp"
 
 namespace tradeoff {
 namespace {
+
+using scenes::End, scenes::SquareBeam, scenes::timoshenko_frequency;
 
 constexpr double length = 0.5, height = 0.05, young = 1e5, density = 1000;  // m, m, Pa, kg/m3
 
@@ -26,113 +27,145 @@ SquareBeam beam_of(const Settings& settings) {
 
 /// The first mode of Euler and Bernoulli at distance x from the first end, 1 at the other.
 double mode(double x, End end) {
-  if (end == End::clamped) {
-    const double s = 1.8751040687119611 * x / length;
-    return (std::cosh(s) - std::cos(s) - 0.7340955137589128 * (std::sinh(s) - std::sin(s))) / 2;
-  }
-  const double s = 4.7300407448627040 * x / length;
-  return (std::cosh(s) + std::cos(s) - 0.9825022145762380 * (std::sinh(s) + std::sin(s))) / 2;
+  return end == End::clamped ? scenes::clamped_mode(scenes::clamped_root * x / length)
+                             : scenes::free_mode(scenes::free_root, scenes::free_root * x / length);
 }
 
-/// Kernels in `K`, state in `S`.
-template <class K, class S>
-Outcome vibrate(const Settings& settings, End held) {
-  Meter meter;
-  using Vector = hmps::Vector<S, 3>;
-  const SquareBeam solid = beam_of(settings);
-  const double l0 = settings.number("spacing"), modulus = young * settings.number("E_hat");
-  const double radius = settings.number("r_e"), volume = l0 * l0 * l0;
-
-  // The clamp holds as many layers as bonds reach.
+/// A beam that is held at one end by as many layers as bonds reach, or not at all.
+std::vector<hmps::Vector<double, 3>> points(double l0, double radius, End held) {
   const hmps::Vector<double, 3> end(length, height, height), half = hmps::Vector<double, 3>::Constant(l0 / 2);
   const double clamp = held == End::clamped ? std::ceil(radius) * l0 : 0;
   const hmps::Box<double, 3> box{hmps::Vector<double, 3>(-clamp, 0, 0), end};
-  const auto lattice = hmps::fill_lattice(box, box, l0, half);
-  const std::size_t n = lattice.size();
-  std::vector<Vector> position(n), velocity(n), load(n), carry(n, Vector::Zero());
-  std::vector<hmps::Matrix<S, 3>> gradient(n);
-  std::vector<double> shape(n);
-  const double expected = timoshenko_frequency(solid, held), amplitude = 0.005 * length;
-  for (std::size_t i = 0; i < n; ++i) {
-    shape[i] = lattice[i][0] > 0 ? mode(lattice[i][0], held) : 0;
-    position[i] = lattice[i].cast<S>();
-    velocity[i] = Vector(0, 0, static_cast<S>(2 * std::numbers::pi * expected * amplitude * shape[i]));
-  }
-  const auto reference = position;
-  const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);
-  const auto c = hmps::vectors(carry);
-  const auto F = hmps::matrices(gradient);
-
-  const hmps::LatticeBonds<K, 3> bonds(x, {.spacing = l0, .radius_ratio = radius});
-  const auto law = hmps::SaintVenantKirchhoff<>::from_young(young, solid.poisson);
-  auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus));
-  const auto moves = [&](std::size_t i) { return lattice[i][0] > 0; };
-  const double limit =
-      hmps::stable_step(force, x, v, density, {.spacing = l0, .margin = 0, .tolerance = 1e-3, .moves = moves}).limit;
-  const double dt = settings.number("step") * limit;
-
-  const auto kick = [&](double time) {
-    hmps::kick(v, f, density, time);
-    for (std::size_t i = 0; i < n && !moves(i); ++i) velocity[i].setZero();  // the clamp comes first on the lattice
-  };
-  const auto drift = [&] {
-    if constexpr (std::is_same_v<S, float>)
-      hmps::drift(x, v, c, dt);
-    else
-      hmps::drift(x, v, dt);
-  };
-  const bool verlet = settings.word("integrator") == "velocity Verlet";
-  const auto step = [&] {
-    if (verlet) {  // f is that of x at the start, and again at the end
-      kick(dt / 2);
-      drift();
-      force(x, f);
-      kick(dt / 2);
-    } else {
-      force(x, f);
-      kick(dt);
-      drift();
-    }
-  };
-  const auto energy = [&] {
-    hmps::deformation_gradient(bonds, x, F);
-    return hmps::kinetic_energy(v, density, volume) + hmps::strain_energy(F, law, volume) +
-           hmps::artificial_energy(bonds, x, F, modulus, volume);
-  };
-  const auto deflection = [&] {  // the share of the mode
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      sum += shape[i] * (static_cast<double>(position[i][2]) - static_cast<double>(reference[i][2]));
-    return sum;
-  };
-
-  // Half a period: until the deflection passes zero.
-  force(x, f);
-  const double start = energy();
-  double drifted = 0;
-  const auto check = [&](double time) {
-    drifted = std::max(drifted, std::abs(energy() / start - 1));
-    if (!(drifted < 10) || time > 3 / expected)
-      throw hmps::StateError(hmps::message("the beam broke down or does not swing back at ", rounded(time), " s"));
-  };
-  const int between = std::max(1, static_cast<int>(1 / (40 * expected * dt)));
-  double before = 0;
-  for (int steps = 1;; ++steps) {
-    meter.start();
-    step();
-    meter.stop();
-    meter.count(n);
-    const double now = deflection();
-    const bool back = before > 0 && !(now > 0);
-    if (back || steps % between == 0) check(steps * dt);
-    if (back) return meter.outcome({0.5 / ((steps - now / (now - before)) * dt), drifted});
-    before = now;
-  }
+  return hmps::fill_lattice(box, box, l0, half);
 }
 
-}  // namespace
+template <class B>
+auto force_in(const B& bonds, const hmps::SaintVenantKirchhoff<>& law, double modulus) {
+  return hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus));
+}
 
-namespace {
+/// A beam that vibrates, with kernels in `K` and state in `S`.
+template <class K, class S>
+class Vibration {
+ public:
+  Vibration(const Settings& settings, End held)
+      : held_(held),
+        l0_(settings.number("spacing")),
+        modulus_(young * settings.number("E_hat")),
+        verlet_(settings.word("integrator") == "velocity Verlet"),
+        expected_(timoshenko_frequency(beam_of(settings), held)),
+        lattice_(points(l0_, settings.number("r_e"), held)),
+        position_(lattice_.size()),
+        velocity_(lattice_.size()),
+        load_(lattice_.size()),
+        carry_(lattice_.size(), Vector::Zero()),
+        gradient_(lattice_.size()),
+        shape_(lattice_.size()),
+        reference_(start()),
+        bonds_(x_, {.spacing = l0_, .radius_ratio = settings.number("r_e")}),
+        law_(hmps::SaintVenantKirchhoff<>::from_young(young, beam_of(settings).poisson)),
+        force_(force_in(bonds_, law_, modulus_)) {
+    const auto moves = [this](std::size_t i) { return this->moves(i); };
+    dt_ = settings.number("step") *
+          hmps::stable_step(force_, x_, v_, density, {.spacing = l0_, .margin = 0, .tolerance = 1e-3, .moves = moves})
+              .limit;
+  }
+
+  /// Half a period: until the deflection passes zero.
+  Outcome run() {
+    force_(x_, f_);
+    const double start = energy();
+    double drifted = 0, before = 0;
+    const int between = std::max(1, static_cast<int>(1 / (40 * expected_ * dt_)));
+    for (int steps = 1;; ++steps) {
+      meter_.start();
+      step();
+      meter_.stop();
+      meter_.count(lattice_.size());
+      const double now = deflection(), time = steps * dt_;
+      const bool back = before > 0 && !(now > 0);
+      if (back || steps % between == 0) {
+        drifted = std::max(drifted, std::abs(energy() / start - 1));
+        if (!(drifted < 10) || time > 3 / expected_)
+          throw hmps::StateError(hmps::message("the beam broke down or does not swing back at ", rounded(time), " s"));
+      }
+      if (back) return meter_.outcome({0.5 / ((steps - now / (now - before)) * dt_), drifted});
+      before = now;
+    }
+  }
+
+ private:
+  using Vector = hmps::Vector<S, 3>;
+  using Bonds = hmps::LatticeBonds<K, 3>;
+
+  [[nodiscard]] bool moves(std::size_t i) const { return lattice_[i][0] > 0; }
+  /// Puts the particles on their lattice and starts them in the shape of the mode; returns where they are.
+  std::vector<Vector> start() {
+    const double amplitude = 0.005 * length;
+    for (std::size_t i = 0; i < lattice_.size(); ++i) {
+      shape_[i] = moves(i) ? mode(lattice_[i][0], held_) : 0;
+      position_[i] = lattice_[i].cast<S>();
+      velocity_[i] = Vector(0, 0, static_cast<S>(2 * std::numbers::pi * expected_ * amplitude * shape_[i]));
+    }
+    return position_;
+  }
+  void kick(double time) {
+    hmps::kick(v_, f_, density, time);
+    for (std::size_t i = 0; i < lattice_.size() && !moves(i); ++i) velocity_[i].setZero();  // the clamp comes first
+  }
+  void drift() {
+    if constexpr (std::is_same_v<S, float>)
+      hmps::drift(x_, v_, hmps::vectors(carry_), dt_);
+    else
+      hmps::drift(x_, v_, dt_);
+  }
+  void step() {
+    if (verlet_) {  // f is that of x at the start, and again at the end
+      kick(dt_ / 2);
+      drift();
+      force_(x_, f_);
+      kick(dt_ / 2);
+    } else {
+      force_(x_, f_);
+      kick(dt_);
+      drift();
+    }
+  }
+  double energy() {
+    const double volume = l0_ * l0_ * l0_;
+    const auto F = hmps::matrices(gradient_);
+    hmps::deformation_gradient(bonds_, x_, F);
+    return hmps::kinetic_energy(v_, density, volume) + hmps::strain_energy(F, law_, volume) +
+           hmps::artificial_energy(bonds_, x_, F, modulus_, volume);
+  }
+  /// The share of the mode.
+  [[nodiscard]] double deflection() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < lattice_.size(); ++i)
+      sum += shape_[i] * (static_cast<double>(position_[i][2]) - static_cast<double>(reference_[i][2]));
+    return sum;
+  }
+
+  Meter meter_;  // first, so that it sees the others
+  End held_;
+  double l0_, modulus_;
+  bool verlet_;
+  double expected_, dt_ = 0;
+  std::vector<hmps::Vector<double, 3>> lattice_;
+  std::vector<Vector> position_, velocity_, load_, carry_;
+  std::vector<hmps::Matrix<S, 3>> gradient_;
+  std::vector<double> shape_;
+  std::vector<Vector> reference_;
+  hmps::VectorView<S, 3> x_{hmps::vectors(position_)}, v_{hmps::vectors(velocity_)}, f_{hmps::vectors(load_)};
+  Bonds bonds_;
+  hmps::SaintVenantKirchhoff<> law_;
+  decltype(force_in(std::declval<const Bonds&>(), law_, 0.)) force_;
+};
+
+template <class K, class S>
+Outcome vibrate(const Settings& settings, End held) {
+  return Vibration<K, S>(settings, held).run();
+}
 
 Scene vibration(const Scale& scale, End held) {
   const auto run = [held](const Settings& settings) {

@@ -6,45 +6,55 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "../../examples/common/canvas.hpp"
-#include "rules.hpp"
-#include "sweep.hpp"
+#include "report/chart.hpp"
+#include "tradeoff/rules.hpp"
 
 namespace tradeoff {
 
 namespace detail {
 
-/// A logarithmic axis from `low` to `high` over pixels `from` to `to`.
-class LogAxis {
- public:
-  LogAxis(double low, double high, double from, double to) : from_(from), to_(to) {
-    low_ = std::log10(low) - 0.1;
-    high_ = std::max(std::log10(high) + 0.1, low_ + 0.5);
+/// Draws the error of quantity `q` against one of the costs.
+inline void draw_front(const Scene& scene, const Sweep& sweep, std::size_t q, std::size_t cost_number,
+                       report::Panel panel) {
+  using report::Colour;
+  constexpr auto line = Colour::hex(0xc0392b);
+  const char* units[] = {"particle-steps", "time over the standard's", "memory (MB)"};
+  const bool first = cost_number == 0, timed = cost_number == 1;
+  const auto error = [q](const Trial& run) { return std::max(std::abs(run.errors[q]), 1e-4); };
+  const auto cost = [&](const Trial& run) { return costs[cost_number].of(run) * (cost_number == 2 ? 1e-6 : 1); };
+  std::vector<const Trial*> drawn;
+  double least = 1e300, most = 0, best = 1e300, worst = 0;
+  for (const Trial& run : sweep.runs) {
+    if (run.failed() || !scene.same_problem(run.settings)) continue;
+    drawn.push_back(&run);
+    least = std::min(least, cost(run)), most = std::max(most, cost(run));
+    best = std::min(best, error(run)), worst = std::max(worst, error(run));
   }
-  [[nodiscard]] double operator()(double value) const {
-    return from_ + (to_ - from_) * (std::log10(value) - low_) / (high_ - low_);
+  const auto across = report::Axis::logarithmic(least, most, panel.x, panel.x + panel.width);
+  const auto up = report::Axis::logarithmic(best, worst, panel.y + panel.height, panel.y);
+  for (const double t : across.ticks()) panel.tick_across(across(t), first ? counted(t) : rounded(t));
+  for (const double t : up.ticks()) panel.tick_up(up(t), first ? rounded(t) + " %" : "");
+  panel.frame();
+  panel.caption(units[cost_number], 33, 12);
+  const auto place = [&](const Trial& run) { return std::pair(across(cost(run)), up(error(run))); };
+  report::Points dots, stairs, corners;
+  for (const Trial* run : drawn) dots.push_back(place(*run));
+  for (const Trial* run : front(scene, sweep, q, costs[cost_number])) {
+    corners.push_back(place(*run));
+    if (!stairs.empty()) stairs.emplace_back(corners.back().first, stairs.back().second);
+    stairs.push_back(corners.back());
   }
-  /// Powers of ten, and where there are fewer than three also their two- and fivefold.
-  [[nodiscard]] std::vector<double> ticks() const {
-    std::vector<double> found;
-    for (const bool few : {false, true}) {
-      found.clear();
-      for (double decade = std::floor(low_); decade <= high_; ++decade)
-        for (const double digit : {1., 2., 5.}) {
-          const double value = digit * std::pow(10, decade), place = std::log10(value);
-          if ((digit == 1 || few) && place >= low_ && place <= high_) found.push_back(value);
-        }
-      if (found.size() >= 3) break;
-    }
-    return found;
-  }
-
- private:
-  double low_, high_, from_, to_;
-};
+  panel.dots(dots, 3, Colour::hex(0xb8c0c8));
+  panel.canvas.line(stairs, line, 1.5);
+  panel.dots(corners, 3.5, line);
+  const auto [x, y] = place(sweep.standard());
+  report::ring(panel.canvas, x, y, 6, 3.5, Colour::hex(0x1f5f99));
+  for (std::size_t n = 0; timed && n < corners.size(); ++n)
+    panel.canvas.text_with_halo(corners[n].first + 6, corners[n].second - 5, std::to_string(n + 1), 11, line,
+                                {1, 1, 1});
+}
 
 }  // namespace detail
 
@@ -52,64 +62,24 @@ class LogAxis {
 /// time, numbered as in the tables; the standard with a ring. Errors below 1e-4 % are drawn there. Runs of another
 /// problem are left out.
 inline void draw(const Scene& scene, const Sweep& sweep, const std::filesystem::path& path) {
-  using examples::Anchor, examples::Colour;
   constexpr double left = 66, top = 34, width = 250, height = 190, gap = 52, below = 58;
-  constexpr auto dot = Colour::hex(0xb8c0c8), line = Colour::hex(0xc0392b), ink = Colour::hex(0x222222),
-                 grid = Colour::hex(0xe6e6e6), ring = Colour::hex(0x1f5f99);
-  std::vector<std::size_t> shown;
-  for (std::size_t q = 0; q < scene.quantities.size(); ++q)
-    if (scene.quantities[q].headline) shown.push_back(q);
-  const auto rows = static_cast<double>(shown.size());
-  examples::Canvas canvas(static_cast<int>(left + 3 * width + 2 * gap + 16),
-                          static_cast<int>(rows * (top + height + below)));
-  const auto error = [](const Trial& run, std::size_t q) { return std::max(std::abs(run.errors[q]), 1e-4); };
-  const auto drawn = [&](const Trial& run) { return !run.failed() && scene.same_problem(run.settings); };
-  const char* units[] = {"particle-steps", "time over the standard's", "memory (MB)"};
-
-  for (std::size_t r = 0; r < shown.size(); ++r) {
-    const std::size_t q = shown[r];
-    const double y0 = static_cast<double>(r) * (top + height + below) + top;
+  constexpr auto ink = report::Colour::hex(0x222222);
+  const auto rows = std::count_if(scene.quantities.begin(), scene.quantities.end(),
+                                  [](const Quantity& quantity) { return quantity.headline; });
+  report::Canvas canvas(static_cast<int>(left + 3 * width + 2 * gap + 16),
+                        static_cast<int>(static_cast<double>(rows) * (top + height + below)));
+  double y = top;
+  for (std::size_t q = 0; q < scene.quantities.size(); ++q) {
+    if (!scene.quantities[q].headline) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double x0 = left + static_cast<double>(k) * (width + gap);
-      const auto cost = [&](const Trial& run) { return costs[k].of(run) * (k == 2 ? 1e-6 : 1); };
-      double least = 1e300, most = 0, best = 1e300, worst = 0;
-      for (const Trial& run : sweep.runs)
-        if (drawn(run)) {
-          least = std::min(least, cost(run)), most = std::max(most, cost(run));
-          best = std::min(best, error(run, q)), worst = std::max(worst, error(run, q));
-        }
-      const detail::LogAxis across(least, most, x0, x0 + width), up(best, worst, y0 + height, y0);
-      for (const double t : across.ticks()) {
-        canvas.line(across(t), y0, across(t), y0 + height, grid, 1);
-        canvas.text(across(t), y0 + height + 15, k == 0 ? counted(t) : rounded(t), 11, ink, Anchor::middle);
-      }
-      for (const double t : up.ticks()) {
-        canvas.line(x0, up(t), x0 + width, up(t), grid, 1);
-        if (k == 0) canvas.text(x0 - 5, up(t) + 4, rounded(t) + " %", 11, ink, Anchor::right);
-      }
-      canvas.frame(x0, y0, width, height, Colour::hex(0x888888));
-      canvas.text(x0 + width / 2, y0 + height + 33, units[k], 12, ink, Anchor::middle);
-      for (const Trial& run : sweep.runs)
-        if (drawn(run)) canvas.disc(across(cost(run)), up(error(run, q)), 3, dot);
-      std::vector<std::pair<double, double>> stairs;
-      const auto best_runs = front(scene, sweep, q, costs[k]);
-      for (const Trial* run : best_runs) {
-        const std::pair<double, double> here(across(cost(*run)), up(error(*run, q)));
-        if (!stairs.empty()) stairs.emplace_back(here.first, stairs.back().second);
-        stairs.push_back(here);
-      }
-      canvas.line(stairs, line, 1.5);
-      for (const Trial* run : best_runs) canvas.disc(across(cost(*run)), up(error(*run, q)), 3.5, line);
-      const Trial& standard = sweep.standard();
-      canvas.disc(across(cost(standard)), up(error(standard, q)), 6, ring);
-      canvas.disc(across(cost(standard)), up(error(standard, q)), 3.5, {1, 1, 1});
-      if (k == 1)
-        for (std::size_t n = 0; n < best_runs.size(); ++n)
-          canvas.text_with_halo(across(cost(*best_runs[n])) + 6, up(error(*best_runs[n], q)) - 5, std::to_string(n + 1),
-                                11, line, {1, 1, 1});
+      const double x = left + static_cast<double>(k) * (width + gap);
+      detail::draw_front(scene, sweep, q, k, {.canvas = canvas, .x = x, .y = y, .width = width, .height = height});
     }
-    canvas.text(left, y0 - 10, scene.title + ": error of " + scene.quantities[q].name, 13, ink, Anchor::left, true);
-    canvas.text(left + 3 * width + 2 * gap, y0 - 10, "red: the front, ring: the standard", 11, ink, Anchor::right);
+    canvas.text(left, y - 10, scene.title + ": error of " + scene.quantities[q].name, 13, ink, report::Anchor::left,
+                true);
+    canvas.text(left + 3 * width + 2 * gap, y - 10, "red: the front, ring: the standard", 11, ink,
+                report::Anchor::right);
+    y += top + height + below;
   }
   canvas.save(path);
 }

@@ -2,15 +2,15 @@
 // A block of soft tissue, pressed on a wall by a dead load and slid along it: how right is the friction, how even the
 // normal force? The wall is a lattice, parallel to the slide or turned to it, and should not be felt as one.
 #include <cmath>
-#include <functional>
 #include <hmps/hmps.hpp>
 #include <numbers>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "meter.hpp"
-#include "scenes.hpp"
+#include "scenes/pressed_block.hpp"
+#include "tradeoff/meter.hpp"
+#include "tradeoff/scenes.hpp"
 
 namespace tradeoff {
 namespace {
@@ -25,109 +25,83 @@ struct Slide {
   double ripple;    ///< rms of the normal force about the load, over the load
 };
 
-/// Kernels in `K`, state in `S`; the wall's lattice turned by `angle` (rad) about its normal.
-template <class K, class S, class Ball, class Friction>
-Slide slide(const Settings& settings, double angle, Meter& meter) {
+/// The block stands on the wall so that they just touch; the wall's lattice is turned by `angle` (rad) about its
+/// normal.
+scenes::BlockOnWall parts_of(double l0, double angle) {
   using Point = hmps::Vector<double, 3>;
-  const double l0 = settings.number("spacing"), volume = l0 * l0 * l0;
-
-  // The block first, its lowest layer where it just touches, then the wall.
-  const Point half = Point::Constant(l0 / 2);
   const hmps::Box<double, 3> box{Point(-width / 2, -width / 2, l0 / 2), Point(width / 2, width / 2, l0 / 2 + height)};
-  std::vector<Point> places = hmps::fill_lattice(box, box, l0, box.lower + half);
-  const std::size_t n = places.size();
+  scenes::BlockOnWall parts{.places = hmps::fill_lattice(box, box, l0, Point(box.lower + Point::Constant(l0 / 2)))};
+  parts.block = parts.places.size();
+  for (std::size_t i = 0; i < parts.block; ++i) {
+    const double z = parts.places[i][2] / l0, top = box.upper[2] / l0;
+    if (z < 1.5) parts.bottom.push_back(static_cast<hmps::Index>(i));
+    if (z < 2.5) parts.lower.push_back(static_cast<hmps::Index>(i));
+    if (z > top - 1) parts.plate.push_back(static_cast<hmps::Index>(i));
+  }
   const double c = std::cos(angle), s = std::sin(angle), margin = 3 * l0, reach = width + speed * until;
   const int cells = static_cast<int>(std::ceil(1.5 * reach / l0));
-  std::vector<hmps::Index> bottom, lower, plate, skin, wall;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double z = places[i][2] / l0, top = box.upper[2] / l0;
-    if (z < 1.5) bottom.push_back(static_cast<hmps::Index>(i));
-    if (z < 2.5) lower.push_back(static_cast<hmps::Index>(i));
-    if (z > top - 1) plate.push_back(static_cast<hmps::Index>(i));
-  }
   for (int k = -2; k <= 0; ++k)
     for (int j = -cells; j <= cells; ++j)
       for (int i = -cells; i <= cells; ++i) {
         // Off the block's own lattice, as walls are.
         const Point place = l0 * Point(c * i - s * j + 0.3, s * i + c * j + 0.2, k);
-        if (std::abs(place[1]) > width / 2 + margin || place[0] < -width / 2 - margin ||
-            place[0] > width / 2 + speed * until + margin)
-          continue;
-        wall.push_back(static_cast<hmps::Index>(places.size()));
-        if (k == 0) skin.push_back(wall.back());
-        places.push_back(place);
+        if (std::abs(place[1]) <= width / 2 + margin && place[0] >= -width / 2 - margin &&
+            place[0] <= width / 2 + speed * until + margin)
+          parts.add_to_wall(place, k == 0);
       }
+  return parts;
+}
 
-  std::vector<hmps::Vector<S, 3>> position, velocity(places.size(), hmps::Vector<S, 3>::Zero());
-  for (const Point& place : places) position.push_back(place.cast<S>());
-  auto load = velocity, carry = velocity;
-  std::vector<hmps::Matrix<K, 3>> gradient(places.size(), hmps::Matrix<K, 3>::Identity());
-  const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);
-  const auto F = hmps::matrices(gradient);
-  const auto block = [n](const auto& view) { return view.part(0, n); };
-
-  const hmps::LatticeBonds<K, 3> bonds(block(x), {.spacing = l0});
-  auto force = hmps::internal_force(
-      bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(young, settings.number("D1"))),
-      hmps::artificial(young * settings.number("E_hat")), hmps::viscous(density, viscosity), hmps::record(block(F)));
-  const double ratio = settings.number("k~");
-  std::vector<bool> held(n, false);
-  for (const hmps::Index i : plate) held[i] = true;
-  const double limit = hmps::stable_step(force, block(x), block(v), density,
-                                         {.spacing = l0, .moves = [&](std::size_t i) { return !held[i]; }})
-                           .step;
-  const double dt = settings.number("step") * limit * std::sqrt(1 - ratio);
-
-  hmps::MetaballContact<K, 3, Ball, Friction> contact(
-      {.spacing = l0,
-       .density = density,
-       .friction = friction,
-       .stiffness = hmps::PenaltyStiffness::fixed(ratio * density / (dt * dt)),
-       .damping = settings.number("damping"),
-       .margin = settings.number("margin")});
-  const auto below = contact.add_organ({"wall", skin, wall, [](hmps::Index) { return true; }});
-  const auto above = contact.add_organ({"block", bottom, lower});
-  const auto pair = contact.add_pair(below, above);
-
-  // The plate on top slides as prescribed and sinks as the load and the block let it.
-  const double area = width * width, mass = static_cast<double>(plate.size()) * volume * density;
-  double sinking = 0;
-  const auto drive = [&](double t) {
-    const hmps::Vector<S, 3> velocity_of_plate(static_cast<S>(speed * std::min(t / ramp, 1.)), S(0),
-                                               static_cast<S>(sinking));
-    for (const hmps::Index i : plate) velocity[i] = velocity_of_plate;
-  };
+/// Kernels in `K`, state in `S`.
+template <class K, class S, class Ball, class Friction>
+Slide slide(const Settings& settings, double angle, Meter& meter) {
+  const double l0 = settings.number("spacing"), ratio = settings.number("k~");
+  const scenes::BlockSettings of{.spacing = l0,
+                                 .density = density,
+                                 .young = young,
+                                 .d1 = settings.number("D1"),
+                                 .modulus = young * settings.number("E_hat"),
+                                 .viscosity = viscosity,
+                                 .pressure = pressure,
+                                 .area = width * width,
+                                 .friction = friction,
+                                 .ratio = ratio,
+                                 .damping = settings.number("damping"),
+                                 .margin = settings.number("margin")};
+  scenes::BlockOnWall parts = parts_of(l0, angle);
+  std::vector<bool> held(parts.block, false);
+  for (const hmps::Index i : parts.plate) held[i] = true;
+  const auto moves = [&](std::size_t i) { return !held[i]; };
+  scenes::PressedBlock<hmps::LatticeBonds<K, 3>, S, Ball, Friction> block(
+      std::move(parts), of, [&](auto& force, const auto& x, const auto& v) {
+        const double limit = hmps::stable_step(force, x, v, density, {.spacing = l0, .moves = moves}).step;
+        return settings.number("step") * limit * std::sqrt(1 - ratio);
+      });
   const int cadence = static_cast<int>(settings.number("cadence"));
   double normal = 0, tangential = 0, squares = 0;
   int samples = 0;
-  const int steps = static_cast<int>(std::ceil(until / dt));
+  const int steps = static_cast<int>(std::ceil(until / block.dt));
   for (int step = 1; step <= steps; ++step) {
-    const double t = step * dt;
+    const double t = step * block.dt, speed_now = speed * std::min(t / ramp, 1.);
     meter.start();
-    force(block(x), block(v), block(f));
-    double lift = -pressure * area;
-    for (const hmps::Index i : plate) lift += static_cast<double>(load[i][2]) * volume;
-    sinking += dt * lift / mass;
-    hmps::kick(block(v), block(f), density, dt);
-    drive(t);
+    block.force(block.block(block.x()), block.block(block.v()), block.block(block.f()));
+    block.sink();
+    block.kick(block.dt, speed_now);
     if (step % cadence == 0) {  // all the impulse of `cadence` steps at once
-      std::fill(load.begin(), load.end(), hmps::Vector<S, 3>::Zero());
-      contact(x, v, F, cadence * dt, f);
-      hmps::kick(block(v), block(f), density, cadence * dt);
-      drive(t);
+      block.unload();
+      block.touch(block.x(), cadence * block.dt);
+      block.kick(cadence * block.dt, speed_now);
     }
-    if constexpr (std::is_same_v<S, float>)
-      hmps::drift(block(x), block(v), block(hmps::vectors(carry)), dt);
-    else
-      hmps::drift(block(x), block(v), dt);
+    block.drift();
     meter.stop();
-    meter.count(places.size());
-    if (!(std::abs(sinking) < 10)) throw hmps::StateError(hmps::message("the block broke down at ", rounded(t), " s"));
+    meter.count(block.position.size());
+    if (!(std::abs(block.sinking) < 10))
+      throw hmps::StateError(hmps::message("the block broke down at ", rounded(t), " s"));
     if (step % cadence != 0 || t < settled) continue;
-    const hmps::Vector<double, 3> on_wall = contact.force_on_first(pair);
+    const auto on_wall = block.on_wall();
     normal -= on_wall[2];
     tangential += on_wall[0];
-    squares += std::pow(-on_wall[2] / (pressure * area) - 1, 2);
+    squares += std::pow(-on_wall[2] / (pressure * width * width) - 1, 2);
     ++samples;
   }
   meter.hold();

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "meter.hpp"
+#include "tradeoff/meter.hpp"
 
 namespace {
 

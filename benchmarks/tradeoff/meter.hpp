@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ctime>
 #include <utility>
 #include <vector>
 
-#include "scene.hpp"
+#include "scenes/processor_time.hpp"
+#include "tradeoff/scene.hpp"
 
 namespace tradeoff {
 
@@ -24,8 +24,8 @@ class Meter {
   Meter() : bytes_(allocated_bytes()) { forget_peak(); }
 
   /// Steps cost processor time between `start` and `stop`; what is measured of the scene should not.
-  void start() { begin_ = now(); }
-  void stop() { seconds_ += now() - begin_; }
+  void start() { begin_ = scenes::processor_seconds(); }
+  void stop() { seconds_ += scenes::processor_seconds() - begin_; }
   /// Says that all is still there whose memory counts.
   void hold() { held_ = std::max(held_, allocated_bytes() - bytes_); }
   /// The most memory that was held since the meter was made, for scenes of which only that can be seen.
@@ -39,12 +39,6 @@ class Meter {
   }
 
  private:
-  [[nodiscard]] static double now() {
-    std::timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-
   std::size_t bytes_, held_ = 0;
   double begin_ = 0, seconds_ = 0, particle_steps_ = 0;
 };

@@ -8,20 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "sweep.hpp"
+#include "tradeoff/sweep.hpp"
 
 /// What follows from a sweep for who has to choose, in sentences. All of them are computed.
 namespace tradeoff {
-
-/// "3.3 M", "120 k"
-[[nodiscard]] inline std::string counted(double number) {
-  if (number >= 1e9) return rounded(number / 1e9) + " G";
-  if (number >= 1e6) return rounded(number / 1e6) + " M";
-  return number >= 1e3 ? rounded(number / 1e3) + " k" : rounded(number);
-}
-[[nodiscard]] inline std::string bytes(double number) {
-  return number >= 1e6 ? rounded(number / 1e6) + " MB" : rounded(number / 1e3) + " kB";
-}
 
 /// How a run stands beside another.
 enum class Verdict {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "meter.hpp"
-#include "scenes.hpp"
+#include "tradeoff/meter.hpp"
+#include "tradeoff/scenes.hpp"
 
 namespace tradeoff {
 namespace {
@@ -73,9 +73,8 @@ Scene sag(const Scale& scale) {
       .title = "A bar that sags under its weight",
       .description =
           "A bar of 60 x 20 x 20 mm of the paper's soft tissue (C1 = C2 = 5/3 kPa, D1 = 1 MPa, 1000 kg/m3) is clamped "
-          "at one end and comes to rest under gravity. The middle of its other end should have sunk by 23.4 mm, "
-          "which finite elements give within 0.1 mm. The step is a share of the largest stable one; mixed means "
-          "kernels in "
+          "at one end and comes to rest under gravity. The middle of its other end should have sunk by 23.4 mm, which "
+          "finite elements give within 0.1 mm. The step is a share of the largest stable one; mixed means kernels in "
           "float and state in double.",
       .quantities = {{.name = "the sag", .unit = "m"}},
       .parameters =

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "settings.hpp"
+#include "tradeoff/settings.hpp"
 
 namespace tradeoff {
 

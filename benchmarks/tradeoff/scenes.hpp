@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "scene.hpp"
+#include "tradeoff/scene.hpp"
 
 namespace tradeoff {
 

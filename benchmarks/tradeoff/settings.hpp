@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -12,8 +10,11 @@
 #include <vector>
 
 #include "hmps/core/error.hpp"
+#include "report/text.hpp"
 
 namespace tradeoff {
+
+using report::bullets, report::bytes, report::counted, report::rounded, report::wrapped;
 
 /// What a parameter can be set to: a number in SI units, or a word such as the name of a kernel.
 using Value = std::variant<double, std::string>;
@@ -60,19 +61,5 @@ class Settings {
 
   std::vector<std::pair<std::string, Value>> values_;
 };
-
-/// `value` with `digits` significant ones and no more zeros than it takes, such as 1.6 or 0.021.
-[[nodiscard]] inline std::string rounded(double value, int digits = 3) {
-  char text[64];
-  // Fixed where that is readable: 123456 rather than 1.23e+05.
-  const double size = std::abs(value);
-  if (size >= std::pow(10, digits) && size < 1e7) {
-    const double unit = std::pow(10, std::floor(std::log10(size)) + 1 - digits);
-    value = std::round(value / unit) * unit;
-    digits = 9;
-  }
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
-  return {text, end};
-}
 
 }  // namespace tradeoff

@@ -6,9 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "../../examples/swallowing/run_case.hpp"
-#include "meter.hpp"
-#include "scenes.hpp"
+#include "run_case.hpp"
+#include "tradeoff/meter.hpp"
+#include "tradeoff/scenes.hpp"
 
 namespace tradeoff {
 namespace {

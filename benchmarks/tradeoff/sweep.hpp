@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "front.hpp"
-#include "scene.hpp"
+#include "tradeoff/front.hpp"
+#include "tradeoff/scene.hpp"
 
 namespace tradeoff {
 

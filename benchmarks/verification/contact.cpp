@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "parts.hpp"
-#include "support.hpp"
+#include "verification/problems.hpp"
+#include "verification/support.hpp"
 
 namespace verification {
 namespace {
@@ -62,7 +62,7 @@ Measured press(int n, const Method& method) {
       body.position[i][1] -= closing * (body.reference[i][1] > 2 * height ? 1 : 0.5);
     settle(body, force, moves, young * closing * width, 1e-4);
     // The contact alone, column by column.
-    std::fill(body.load.begin(), body.load.end(), Vector::Zero());
+    body.unload();
     contact(body.x(), body.v(), body.F(), any_step, body.f());
     std::vector<double> column(static_cast<std::size_t>(2 * n), 0);
     for (std::size_t i = first; i < body.size(); ++i)
@@ -125,7 +125,7 @@ Measured indent(int n, const Method& method) {
     for (const double delta : {1e-3, 2e-3}) {
       for (std::size_t i = first; i < body.size(); ++i) body.position[i] = body.reference[i] - Vector(0, 0, delta);
       settle(body, force, moves, indentation(delta), 1e-3);
-      std::fill(body.load.begin(), body.load.end(), Vector::Zero());
+      body.unload();
       contact(body.x(), body.v(), body.F(), any_step, body.f());
       double up = 0;
       for (std::size_t i = first; i < body.size(); ++i) up += body.load[i][2] * body.volume();
@@ -143,9 +143,8 @@ Problem contact_patch() {
       .title = "24. Contact patch",
       .text =
           "Two blocks of 1 x 0.5 m in plane strain, linear, E = 1 MPa, nu = 0, one above the other, are closed by 10 "
-          "mm. "
-          "The pressure between them should be 10 kPa everywhere. The penalty is four times as stiff as a layer "
-          "of particles.",
+          "mm. The pressure between them should be 10 kPa everywhere. The penalty is four times as stiff as a layer of "
+          "particles.",
       .quantities = {{.name = "mean pressure", .unit = "kPa", .answer = 10, .source = "exact"},
                      {.name = "spread (rms)", .unit = "%", .answer = 0, .source = "exact", .scale = 100},
                      {.name = "spread without three columns at each side",

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <hmps/hmps.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "scenes/body.hpp"
 
 /// The variants of the method that are compared, and the body that they act on.
 namespace verification {
@@ -47,32 +47,7 @@ template <class Law>
   return method.over_shear > 0 ? method.over_shear * law.shear_modulus() : young_of(law);
 }
 
-/// A body of particles in `D` dimensions (two: plane strain), at rest in its reference configuration.
-template <int D>
-struct Body {
-  using Vector = hmps::Vector<double, D>;
-
-  double spacing;
-  std::vector<Vector> reference, position, velocity, load;
-  std::vector<hmps::Matrix<double, D>> gradient;
-
-  Body(double l0, std::vector<Vector> points)
-      : spacing(l0),
-        reference(std::move(points)),
-        position(reference),
-        velocity(reference.size(), Vector::Zero()),
-        load(velocity),
-        gradient(reference.size(), hmps::Matrix<double, D>::Identity()) {}
-
-  [[nodiscard]] std::size_t size() const { return reference.size(); }
-  [[nodiscard]] double volume() const { return std::pow(spacing, D); }
-  [[nodiscard]] Vector displacement(std::size_t i) const { return position[i] - reference[i]; }
-  [[nodiscard]] auto X() const { return hmps::vectors(reference); }
-  [[nodiscard]] auto x() { return hmps::vectors(position); }
-  [[nodiscard]] auto v() { return hmps::vectors(velocity); }
-  [[nodiscard]] auto f() { return hmps::vectors(load); }
-  [[nodiscard]] auto F() { return hmps::matrices(gradient); }
-};
+using scenes::Body;
 
 /// Particles at the centres of the cells of a cubic lattice that fill [0, n0 l0] x [0, n1 l0] (x ...), and `below` and
 /// `above` layers more along the first axis.

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "parts.hpp"
-#include "support.hpp"
+#include "verification/problems.hpp"
+#include "verification/support.hpp"
 
 namespace verification {
 namespace {

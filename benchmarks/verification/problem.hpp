@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "method.hpp"
+#include "verification/method.hpp"
 
 /// Problems with known answers: what is asked, what is right, and what the method says at some spacings.
 namespace verification {

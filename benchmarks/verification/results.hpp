@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <ctime>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "../stability/page.hpp"
-#include "../tradeoff/table.hpp"
-#include "problem.hpp"
+#include "report/table.hpp"
+#include "report/text.hpp"
+#include "verification/problem.hpp"
 
 /// What the problems gave: runs, the table of all of them in a file, orders of convergence.
 namespace verification {
@@ -39,33 +38,30 @@ struct Solved {
   return trial;
 }
 
-inline constexpr const char* csv_header =
-    "problem,method,size,spacing (m),particles,quantity,unit,value,answer,source,uncertainty,error "
-    "(%),seconds,failure\n";
-
-/// The lines of a problem in the table of all runs.
-[[nodiscard]] inline std::string csv_lines(const Solved& solved) {
-  const auto quoted = [](const std::string& text) { return '"' + text + '"'; };
-  std::string text;
-  for (const Trial& trial : solved.trials)
-    for (std::size_t q = 0; q < solved.problem.quantities.size(); ++q) {
-      const Quantity& quantity = solved.problem.quantities[q];
-      const double value = trial.measured.values[q];
-      std::string reason = trial.failure;
-      std::replace(reason.begin(), reason.end(), '"', '\'');
-      text += quoted(solved.problem.name) + ',' + quoted(trial.method) + ',' + std::to_string(trial.size) + ',' +
-              examples::to_text(trial.measured.spacing) + ',' + std::to_string(trial.measured.particles) + ',' +
-              quoted(quantity.name) + ',' + quoted(quantity.unit) + ',' + examples::to_text(value) + ',' +
-              examples::to_text(quantity.answer) + ',' + quantity.source + ',' +
-              examples::to_text(quantity.uncertainty) + ',' + examples::to_text(100 * quantity.error(value)) + ',' +
-              examples::to_text(trial.seconds) + ',' + quoted(reason) + '\n';
-    }
+/// The table of all runs.
+[[nodiscard]] inline std::string csv(const std::vector<Solved>& all) {
+  using report::in_full, report::in_quotes;
+  std::string text =
+      "problem,method,size,spacing (m),particles,quantity,unit,value,answer,source,uncertainty,error "
+      "(%),seconds,failure\n";
+  for (const Solved& solved : all)
+    for (const Trial& trial : solved.trials)
+      for (std::size_t q = 0; q < solved.problem.quantities.size(); ++q) {
+        const Quantity& quantity = solved.problem.quantities[q];
+        const double value = trial.measured.values[q];
+        text +=
+            report::csv_line({in_quotes(solved.problem.name), in_quotes(trial.method), std::to_string(trial.size),
+                              in_full(trial.measured.spacing), std::to_string(trial.measured.particles),
+                              in_quotes(quantity.name), in_quotes(quantity.unit), in_full(value),
+                              in_full(quantity.answer), quantity.source, in_full(quantity.uncertainty),
+                              in_full(100 * quantity.error(value)), in_full(trial.seconds), in_quotes(trial.failure)});
+      }
   return text;
 }
 
-/// The trials of `problem` in a table that `csv_lines` wrote. Runs of other methods, sizes or quantities are left out.
+/// The trials of `problem` in a table that `csv` wrote. Runs of other methods, sizes or quantities are left out.
 [[nodiscard]] inline std::vector<Trial> read_trials(const Problem& problem, std::string_view table) {
-  const auto lines = tradeoff::detail::cells(table);
+  const auto lines = report::read_csv(table);
   std::vector<Trial> trials;
   for (const Method& method : problem.methods)
     for (const int size : problem.sizes) {
@@ -118,7 +114,7 @@ enum class Sizes { all, odd, even };
   }
   if (counted < 3) return counted < curve.errors.size() ? "within the answer's own error" : "-";
   if (above && below) return "changes sign";
-  return stability::places(curve.order(resolution), 1);
+  return report::places(curve.order(resolution), 1);
 }
 
 }  // namespace verification

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "parts.hpp"
-#include "support.hpp"
+#include "verification/problems.hpp"
+#include "verification/support.hpp"
 
 namespace verification {
 namespace {

@@ -7,14 +7,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "method.hpp"
-
-#include "hmps/time/symplectic_euler.hpp"
+#include "verification/method.hpp"
 
 namespace verification {
 
 /// The paper's soft tissue, here called the seed law: kappa / mu = 300.
 inline const hmps::MooneyRivlin<> tissue{5000.0 / 3, 5000.0 / 3, 1e6};
+
+/// A number in [-1, 1] that depends on its arguments alone and looks like noise.
+[[nodiscard]] inline double noise(std::size_t i, int c) {
+  return std::sin(12.9898 * static_cast<double>(i) + 78.233 * (c + 1));
+}
 
 /// The particle of `body` nearest to `point` in the reference configuration.
 template <int D>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "parts.hpp"
-#include "support.hpp"
+#include "verification/problems.hpp"
+#include "verification/support.hpp"
 
 namespace verification {
 namespace {

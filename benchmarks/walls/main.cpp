@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What a wall of particles feels like that is cut out of its lattice at an angle. See --help.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,17 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "../stability/page.hpp"
-#include "../tradeoff/report.hpp"
-#include "block.hpp"
-#include "common/canvas.hpp"
-#include "common/streams.hpp"
+#include "report/chart.hpp"
+#include "report/study.hpp"
+#include "report/text.hpp"
+#include "walls/block.hpp"
 
 namespace {
 
 using namespace walls;
-using stability::digits, stability::places, stability::Table;
-namespace fs = std::filesystem;
+using report::digits, report::places, report::Table;
 
 constexpr std::array angles{0., 15., 30., 45.};
 constexpr double mu = 0.2, steep_mu = 0.3, holding = 10, sliding = 20;  // -, -, degrees, degrees
@@ -104,68 +101,68 @@ template <class Of>
                   1);
   };
   const std::vector<std::string> rules = {
-      "- Lay rigid walls and plates out along their own surface, whatever their direction: `SmoothMetaball` then errs "
+      "Lay rigid walls and plates out along their own surface, whatever their direction: `SmoothMetaball` then errs "
       "by " +
           error("smooth", false, true) + " of the friction coefficient at most, `PaperMetaball` by " +
           error("paper", false, true) + ".",
-      "- Where a surface has to cut the lattice, let contact see it through `SurfaceCorrection`: with `SmoothMetaball` "
+      "Where a surface has to cut the lattice, let contact see it through `SurfaceCorrection`: with `SmoothMetaball` "
       "the "
       "friction errs by " +
           error("smooth", true, false) + " at most instead of " + error("smooth", false, false) +
           ", and a slide without friction is dragged by " + drag("smooth", true, false) + " instead of " +
           drag("smooth", false, false) +
           " of the normal force. Contact takes about as long as on a wall along its lattice.",
-      "- As cut, count on friction coefficients that are too large by up to " + error("smooth", false, false) +
+      "As cut, count on friction coefficients that are too large by up to " + error("smooth", false, false) +
           " with `SmoothMetaball` and " + error("paper", false, false) +
           " with `PaperMetaball` where a body is driven, and on stairs that stop one that should slide by its weight: "
           "their sides are as steep as " +
           digits(worst(all, "smooth", false, false, [](const Found& row) { return row.relief.largest_tilt; }), 2) +
           " (as a tangent).",
-      "- It is the surface slid over that counts: a block that is cut, on a wall along its lattice, errs by " +
+      "It is the surface slid over that counts: a block that is cut, on a wall along its lattice, errs by " +
           percent(worst(all, "smooth", false, false, error_of, true)) + " as cut and by " +
           percent(worst(all, "smooth", true, false, error_of, true)) + " raised.",
-      "- A kernel that reaches further does not help: with a radius of 3.5 l0 (wide) friction errs by " +
+      "A kernel that reaches further does not help: with a radius of 3.5 l0 (wide) friction errs by " +
           error("wide", false, false) + " as cut and " + error("wide", true, false) + " raised, for " + time("wide") +
           " times the time of the paper's kernel where the smooth one takes " + time("smooth") + "."};
-  std::string text;
-  for (const std::string& rule : rules) text += tradeoff::wrapped(rule, "  ");
-  return text;
+  return '\n' + report::bullets(rules) + '\n';
 }
 
 /// Error of friction over the angle, one line per kernel and skin.
-void draw(const std::vector<Found>& all, const fs::path& path) {
-  using examples::Anchor, examples::Colour;
+void draw(const std::vector<Found>& all, const std::filesystem::path& path) {
+  using report::Anchor, report::Colour;
   constexpr double left = 80, top = 50, width = 520, height = 260, most = 0.6;
-  examples::Canvas canvas(860, 380);
-  const Colour ink = Colour::hex(0x333333), grid = Colour::hex(0xdddddd);
-  const auto x_of = [&](double degrees) { return left + width * degrees / 45; };
-  const auto y_of = [&](double error) { return top + height * (1 - error / most); };
-  canvas.text(left, 28, "Error of a friction coefficient of 0.2 on a wall cut out of its lattice", 15, ink,
+  report::Canvas canvas(860, 380);
+  report::Panel panel{.canvas = canvas,
+                      .x = left,
+                      .y = top,
+                      .width = width,
+                      .height = height,
+                      .size = 12,
+                      .left = 8,
+                      .below = 20,
+                      .ink = Colour::hex(0x333333),
+                      .grid = Colour::hex(0xdddddd)};
+  const auto across = report::Axis::linear(0, 45, left, left + width);
+  const auto up = report::Axis::linear(0, most, top + height, top);
+  canvas.text(left, 28, "Error of a friction coefficient of 0.2 on a wall cut out of its lattice", 15, panel.ink,
               Anchor::left, true);
-  for (const double tick : {0., 0.2, 0.4, 0.6}) {
-    canvas.line(left, y_of(tick), left + width, y_of(tick), grid, 1);
-    canvas.text(left - 8, y_of(tick) + 4, percent(tick, 0), 12, ink, Anchor::right);
-  }
-  for (const double degrees : angles)
-    canvas.text(x_of(degrees), top + height + 20, digits(degrees), 12, ink, Anchor::middle);
-  canvas.text(left + width / 2, top + height + 42, "angle between surface and lattice, degrees", 12, ink,
-              Anchor::middle);
+  for (const double tick : {0., 0.2, 0.4, 0.6}) panel.tick_up(up(tick), percent(tick, 0));
+  for (const double degrees : angles) panel.tick_across(across(degrees), digits(degrees), true);
+  panel.caption("angle between surface and lattice, degrees", 42, 12);
   const std::pair<const char*, Colour> kernels[] = {
       {"paper", Colour::hex(0xc0392b)}, {"smooth", Colour::hex(0x2060b0)}, {"wide", Colour::hex(0x30a060)}};
   double y = top + 20;
   for (const auto& [kernel, colour] : kernels)
     for (const bool raised : {false, true}) {
-      std::vector<std::pair<double, double>> line;
+      report::Points line;
       for (const Found& row : all)
         if (row.kernel == kernel && !row.soft && (row.raised == raised || row.degrees == 0))
-          line.emplace_back(x_of(row.degrees), y_of(std::clamp(row.error(), 0., most)));
+          line.emplace_back(across(row.degrees), up(std::clamp(row.error(), 0., most)));
       std::sort(line.begin(), line.end());
-      std::vector<double> dashes;
-      if (!raised) dashes = {6, 4};
-      canvas.line(line, colour, 2, dashes);
-      for (const auto& [px, py] : line) canvas.disc(px, py, 4, colour);
+      const std::vector<double> dashes = raised ? std::vector<double>{} : std::vector<double>{6, 4};
+      panel.curve(line, colour, 2, 4, dashes);
       canvas.line(left + width + 30, y - 4, left + width + 70, y - 4, colour, 2, dashes);
-      canvas.text(left + width + 80, y, std::string(kernel) + (raised ? ", raised skin" : ", as cut"), 13, ink);
+      canvas.text(left + width + 80, y, std::string(kernel) + (raised ? ", raised skin" : ", as cut"), 13, panel.ink);
       y += 24;
     }
   canvas.save(path);
@@ -211,43 +208,18 @@ void draw(const std::vector<Found>& all, const fs::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  examples::check_standard_streams("walls");
-  CLI::App app{
-      "What a wall of particles feels like that is cut out of its lattice at an angle: drag, ripple, friction"};
-  bool quick = false;
-  std::string out = "results/walls", document;
-  app.add_flag("--quick", quick, "the smooth kernel at 15 degrees, to see that the properties hold");
-  app.add_option("--out", out, "folder of the tables (CSV)")->capture_default_str();
-  app.add_option("--document", document, "page whose sections are replaced by the tables");
-  CLI11_PARSE(app, argc, argv);
-
-  try {
-    examples::prepare_folder(out);
+  report::Study study(
+      "walls", "What a wall of particles feels like that is cut out of its lattice at an angle: drag, ripple, friction",
+      "the smooth kernel at 15 degrees, to see that the properties hold");
+  return study.run(argc, argv, [&] {
     std::vector<Found> all;
-    if (!quick) measure<hmps::PaperMetaball>("paper", false, quick, all);
-    measure<hmps::SmoothMetaball>("smooth", false, quick, all);
-    measure<hmps::SmoothMetaball>("smooth", true, quick, all);
-    if (!quick) measure<WideMetaball>("wide", false, quick, all);
-    bool whole = true;
-    for (const Table& table : {table_of(all), friction(quick)}) {
-      std::string content = "\n" + table.markdown() + "\n";
-      for (const std::string& words : table.broken) content += "Does not hold: " + words + ".\n";
-      whole = whole && table.broken.empty();
-      std::printf("%s\n", content.c_str());
-      examples::write_atomically(fs::path(out) / (table.name + ".csv"), table.csv());
-      if (document.empty()) continue;
-      std::string page = examples::read_file(document);
-      if (table.name == "walls") {
-        draw(all, fs::path(document).parent_path() / "images" / "walls.png");
-        content += "![Error of friction over the angle](images/walls.png)\n\n";
-        stability::replace_section(page, "rules", "\n" + rules_of(all) + "\n");
-      }
-      stability::replace_section(page, table.name, content);
-      examples::write_atomically(document, page);
-    }
-    return whole ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+    if (!study.quick) measure<hmps::PaperMetaball>("paper", false, study.quick, all);
+    measure<hmps::SmoothMetaball>("smooth", false, study.quick, all);
+    measure<hmps::SmoothMetaball>("smooth", true, study.quick, all);
+    if (!study.quick) measure<WideMetaball>("wide", false, study.quick, all);
+    study.publish("rules", rules_of(all));
+    study.publish(table_of(all),
+                  {"walls.png", "Error of friction over the angle", [&](const auto& path) { draw(all, path); }});
+    study.publish(friction(study.quick));
+  });
 }

@@ -38,8 +38,8 @@ struct Wall {
   bool raised = false;  ///< contact sees its skin raised to the surface
   double spacing = 1;   ///< m
 
-  std::vector<Point> places = {};                ///< where contact sees the particles, m
-  std::vector<hmps::Index> skin = {}, all = {};  ///< numbered from 0
+  std::vector<Point> places = {};      ///< where contact sees the particles, m
+  std::vector<hmps::Index> skin = {};  ///< numbered from 0
 
   /// Mean length of a step of the stairs along x, in m. They come in two lengths, that do not repeat.
   [[nodiscard]] double step() const { return degrees > 0 ? spacing / std::sin(angle()) : spacing; }
@@ -55,7 +55,6 @@ struct Wall {
       if (place[2] > 0) continue;
       // The next place of the lattice upwards is outside.
       if (-place[2] < spacing * std::cos(angle())) skin.push_back(static_cast<hmps::Index>(places.size()));
-      all.push_back(static_cast<hmps::Index>(places.size()));
       places.push_back(place);
     }
     if (!raised) return;

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the structure of include/hmps: which folder may include which, no circles, nothing too long to read.
+"""Checks the structure of include/hmps and benchmarks: which folder may include which, no circles, nothing too long.
 
-Folders are layers: a header includes headers of its own folder and of those before it in LAYERS. No header includes
-itself by way of others. A header has at most MOST_LINES lines, a function at most MOST_FUNCTION_LINES.
+Folders of include/hmps are layers: a header includes headers of its own folder and of those before it in LAYERS. No
+header includes itself by way of others. A folder of benchmarks includes itself and what SHARED says, by its path from
+there. A file has at most MOST_LINES lines, a function at most MOST_FUNCTION_LINES.
 """
 
 import pathlib
@@ -12,12 +13,16 @@ import sys
 
 LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact", "motion", "shapes", "particles",
           "time", "analysis", "diagnostics", "output", "executors"]
+# What a folder of benchmarks may include of others: a study the first two, a component's benchmark the last.
+SHARED = {"report": [], "scenes": [], "components": [], "hmps": ["components"]}
+STUDY = ["report", "scenes"]
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 # What is longer today, and by how much at most: to be divided, not to be added to.
 LONGER = {"hmps/lanes/lanes.hpp": 355}
 LONGER_FUNCTIONS = {}
 
+QUOTED = re.compile(r'^#include "([^"]+)"', re.M)
 INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)
 # What opens a block that is no function.
 SCOPE = re.compile(r"\b(namespace|struct|class|union|enum|concept)\b[^;(]*$|=\s*$|\brequires\b[^)]*$|extern \"C\"")
@@ -81,19 +86,38 @@ def circle(graph):
     return []
 
 
+def lengths(name, text, key):
+    """What is too long in a file."""
+    lines, most = text.count("\n"), LONGER.get(key, MOST_LINES)
+    if lines > most and key != "hmps/hmps.hpp":
+        yield f"{name} has {lines} lines; {most} are allowed"
+    for line, length in functions(text):
+        most = LONGER_FUNCTIONS.get(key, MOST_FUNCTION_LINES)
+        if length > most:
+            yield f"{name}:{line}: a function of {length} lines; {most} are allowed"
+
+
+def check_benchmarks(root):
+    folders = {path.name for path in (root / "benchmarks").iterdir() if path.is_dir()}
+    for path in sorted((root / "benchmarks").rglob("*.[hc]pp")):
+        name, text = str(path.relative_to(root)), path.read_text(encoding="utf-8")
+        yield from lengths(name, text, name)
+        folder = name.split("/")[1]
+        for other in QUOTED.findall(text):
+            target = other.split("/")[0]
+            if target == "..":
+                yield f"{name} includes {other}: write the path from benchmarks or examples"
+            elif target in folders - {"hmps", folder, *SHARED.get(folder, STUDY)}:
+                yield f"{name} includes {other}: what folders share belongs to {' or '.join(STUDY)}"
+
+
 def check(root):
-    problems, graph = [], {}
+    problems, graph = list(check_benchmarks(root)), {}
     for path in sorted((root / "include").rglob("*.hpp")):
         name = str(path.relative_to(root / "include"))
         text = path.read_text(encoding="utf-8")
         graph[name] = INCLUDE.findall(text)
-        lines, most = text.count("\n"), LONGER.get(name, MOST_LINES)
-        if lines > most and name != "hmps/hmps.hpp":
-            problems.append(f"include/{name} has {lines} lines; {most} are allowed")
-        for line, length in functions(text):
-            most = LONGER_FUNCTIONS.get(name, MOST_FUNCTION_LINES)
-            if length > most:
-                problems.append(f"include/{name}:{line}: a function of {length} lines; {most} are allowed")
+        problems += lengths(f"include/{name}", text, name)
         folder = name.split("/")[1]
         if name == "hmps/hmps.hpp":
             continue
@@ -112,5 +136,5 @@ def check(root):
 
 if __name__ == "__main__":
     problems = check(pathlib.Path(__file__).resolve().parents[2])
-    print("\n".join(problems) if problems else "include/hmps: layers, circles and lengths are as they should be")
+    print("\n".join(problems) if problems else "include/hmps and benchmarks: layers, circles and lengths are as they should be")
     sys.exit(1 if problems else 0)

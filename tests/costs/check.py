@@ -16,6 +16,9 @@ import sys
 import tempfile
 import time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "report"))
+from pages import bullets, table, words, write  # noqa: E402
+
 SKIPPED = 77
 STEPS = (4, 12)
 SCENES = {
@@ -115,8 +118,8 @@ def growth(m, compiler):
         return
     for scene, held in HELD.items():
         print(f"{scene:20} {found[scene]:8.1f} instructions, held at {held}")
-        words = SCENES.get(scene, "contact, where the bodies meet")
-        yield f"growth ({HELD_COMPILER}): {words}: at most {100 * MARGIN:.0f} % more than {held:,} instructions", (
+        text = SCENES.get(scene, "contact, where the bodies meet")
+        yield f"growth ({HELD_COMPILER}): {text}: at most {100 * MARGIN:.0f} % more than {held:,} instructions", (
             found[scene] <= held * (1 + MARGIN))
 
 
@@ -128,48 +131,34 @@ def compile_source(compiler, includes, flags, source, program):
     return time.monotonic() - start
 
 
-def write(page, m, held, compiler, includes):
-    lines = [
-        "# What is left out costs nothing",
-        "",
-        "This page is written by `benchmarks/stability/run`; nothing in it is typed by hand. The test `costs` holds the",
-        "bounds below, by counts and not by the clock.",
-        "",
-        "A step of about 1,000 particles (10 x 10 x 10, in two dimensions 32 x 32), in double unless said, on one core.",
-        "Instructions are those of callgrind, for code compiled with `-O2 -mavx2 -mfma`, kick and drift included; bytes are",
-        "what the components keep on the heap, without the user's own state.",
-        "",
-        "| Scene | Instructions per particle and step | Bytes per particle |",
-        "|---|---|---|",
-    ]
-    for scene, words in SCENES.items():
-        lines.append(f"| {words} | {m[scene]['instructions']:,.0f} | {m[scene]['bytes']:.0f} |")
-    lines += ["", "What the test holds:", ""]
-    lines += [f"- {words}" for words in held]
-    lines += [
-        "",
-        "What flags give: instructions of all three forces per particle and step, by the same count. The kernels work on",
-        "64 bytes of particles at a time, in as many registers as that takes; `-march=native` uses the widest there are.",
-        "",
-        "| Compiled with | double | float |",
-        "|---|---|---|",
-    ]
-    seconds = {}
+def page(m, held, compiler, includes):
+    yield from ["# What is left out costs nothing", ""]
+    yield from words("This page is written by `benchmarks/stability/run`; nothing in it is typed by hand. The test `costs` "
+                     "holds the bounds below, by counts and not by the clock.")
+    yield from words("A step of about 1,000 particles (10 x 10 x 10, in two dimensions 32 x 32), in double unless said, on "
+                     "one core. Instructions are those of callgrind, for code compiled with `-O2 -mavx2 -mfma`, kick and "
+                     "drift included; bytes are what the components keep on the heap, without the user's own state.")
+    yield from table(["Scene", "Instructions per particle and step", "Bytes per particle"],
+                     [[text, f"{m[scene]['instructions']:,.0f}", f"{m[scene]['bytes']:.0f}"]
+                      for scene, text in SCENES.items()])
+    yield from ["What the test holds:", ""]
+    yield from bullets(held)
+    yield from words("What flags give: instructions of all three forces per particle and step, by the same count. The "
+                     "kernels work on 64 bytes of particles at a time, in as many registers as that takes; `-march=native` "
+                     "uses the widest there are.")
+    rows, seconds = [], {}
     with tempfile.TemporaryDirectory() as folder:
         seconds["alone"] = compile_source(compiler, includes, FLAGS[0], "alone.cpp", f"{folder}/costs.alone")
         for flags in FLAGS:
             took = compile_source(compiler, includes, f"{flags} -DNDEBUG", "scene.cpp", f"{folder}/costs.scene")
             seconds.setdefault("scene", took)
             double, single = (measure(pathlib.Path(folder), name) for name in ("all_terms", "all_terms_float"))
-            lines.append(f"| `{flags}` | {double['instructions']:,.0f} | {single['instructions']:,.0f} |")
+            rows.append([f"`{flags}`", f"{double['instructions']:,.0f}", f"{single['instructions']:,.0f}"])
+    yield from table(["Compiled with", "double", "float"], rows)
     first = run([compiler, "--version"]).stdout.splitlines()[0]
-    lines += [
-        "",
-        f"Compiling with `{FLAGS[0]}` took {seconds['alone']:.1f} s for the program of one force,"
-        f" {seconds['scene']:.1f} s for that of all",
-        f"scenes, which includes the whole library (by the clock, {first}, not tested).",
-    ]
-    pathlib.Path(page).write_text("\n".join(lines) + "\n")
+    yield from words(f"Compiling with `{FLAGS[0]}` took {seconds['alone']:.1f} s for the program of one force, "
+                     f"{seconds['scene']:.1f} s for that of all scenes, which includes the whole library (by the clock, "
+                     f"{first}, not tested).")
 
 
 def main():
@@ -186,11 +175,11 @@ def main():
         print(f"{scene:20} {found['instructions']:8.1f} instructions {found['bytes']:6.1f} bytes")
     compiler = run([str(folder / "costs.scene"), "compiler", "0"]).stdout.strip()
     checked = list(bounds(m)) + list(growth(m, compiler))
-    broken = [words for words, holds in checked if not holds]
+    broken = [text for text, holds in checked if not holds]
     if len(sys.argv) > 3:
-        write(sys.argv[2], m, [words for words, _ in checked], sys.argv[3], sys.argv[4:])
-    for words in broken:
-        print(f"does not hold: {words}")
+        write(pathlib.Path(sys.argv[2]), page(m, [text for text, _ in checked], sys.argv[3], sys.argv[4:]))
+    for text in broken:
+        print(f"does not hold: {text}")
     sys.exit(1 if broken else 0)
 
 

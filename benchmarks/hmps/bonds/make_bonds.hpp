@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "support.hpp"
+#include "components/support.hpp"
 
 namespace bench {
 

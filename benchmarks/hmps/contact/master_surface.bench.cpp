@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "components/support.hpp"
 #include "hmps/core/math.hpp"
-#include "support.hpp"
 
 namespace {
 

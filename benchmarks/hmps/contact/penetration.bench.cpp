@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "support.hpp"
+#include "components/support.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "../force/step.hpp"
+#include "components/step.hpp"
 
 namespace {
 

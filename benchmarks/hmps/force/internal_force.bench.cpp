@@ -21,12 +21,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "components/step.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 #include "reference.hpp"
-#include "step.hpp"
 
 namespace {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "components/support.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/laws/continued.hpp"
 #include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/laws/neo_hookean.hpp"
 #include "hmps/laws/saint_venant_kirchhoff.hpp"
-#include "support.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <string>
 
+#include "components/support.hpp"
 #include "hmps/shapes/combine.hpp"
 #include "hmps/shapes/implicit.hpp"
-#include "support.hpp"
 
 namespace {
 

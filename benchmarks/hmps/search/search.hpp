@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "components/support.hpp"
 #include "hmps/core/types.hpp"
-#include "support.hpp"
 
 /// What the benchmarks of the two searches share.
 namespace bench {

@@ -2,7 +2,7 @@
 // The artificial force alone, (19): artificial/KIND/PARTICLES/THREADS. Items are particles.
 #include "hmps/terms/artificial.hpp"
 
-#include "../force/step.hpp"
+#include "components/step.hpp"
 
 namespace {
 

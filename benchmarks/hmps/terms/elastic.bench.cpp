@@ -2,7 +2,7 @@
 // The elastic force alone, (13): elastic/KIND/PARTICLES/THREADS. Items are particles.
 #include "hmps/terms/elastic.hpp"
 
-#include "../force/step.hpp"
+#include "components/step.hpp"
 
 namespace {
 

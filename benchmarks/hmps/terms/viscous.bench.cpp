@@ -2,7 +2,7 @@
 // The viscous force alone, (21): viscous/KIND/PARTICLES/THREADS. Items are particles.
 #include "hmps/terms/viscous.hpp"
 
-#include "../force/step.hpp"
+#include "components/step.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "support.hpp"
+#include "components/support.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "front.hpp"
+#include "tradeoff/front.hpp"
 
 #include <gtest/gtest.h>
 

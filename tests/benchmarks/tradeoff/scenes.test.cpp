@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The scenes themselves, at the size of --quick.
-#include "scenes.hpp"
+#include "tradeoff/scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "sweep.hpp"
-#include "timoshenko.hpp"
+#include "scenes/timoshenko.hpp"
+#include "tradeoff/sweep.hpp"
 
 namespace {
 
 using namespace tradeoff;
+using namespace scenes;
 
 const SquareBeam published{.length = 0.5, .height = 0.05, .young = 1e5, .poisson = 0.3, .density = 1000};
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "../../../examples/swallowing/output/summary.hpp"
-#include "scenes.hpp"
+#include "output/summary.hpp"
+#include "tradeoff/scenes.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sweep.hpp"
+#include "tradeoff/sweep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "agreement.hpp"
-#include "meter.hpp"
-#include "report.hpp"
-#include "rules.hpp"
-#include "table.hpp"
+#include "tradeoff/agreement.hpp"
+#include "tradeoff/meter.hpp"
+#include "tradeoff/page.hpp"
+#include "tradeoff/rules.hpp"
+#include "tradeoff/table.hpp"
 
 namespace {
 
@@ -230,32 +230,12 @@ TEST(Agreement, SaysWhereScenesDifferAndLeavesOutWhatOneAloneTried) {
   EXPECT_TRUE(holds_text(same, "### Makes no difference to errors\n\n- scalar float")) << same;
   EXPECT_TRUE(holds_text(same, "### Breaks down\n\n- scalar half instead of double (formula, formula)")) << same;
 }
-TEST(Page, ReplacesItsOwnSectionOnly) {
-  const std::string one = with_section("# Page\n", "a", "first\n");
-  const std::string two = with_section(one, "b", "second\n");
-  const std::string three = with_section(two, "a", "third\n");
-  EXPECT_TRUE(holds_text(two, "first") && holds_text(two, "second"));
-  EXPECT_TRUE(holds_text(three, "third") && holds_text(three, "second") && holds_text(three, "# Page"));
-  EXPECT_FALSE(holds_text(three, "first"));
-  EXPECT_LT(three.find("third"), three.find("second"));
-  EXPECT_EQ(with_section(three, "a", "third\n"), three);
-  EXPECT_THROW((void)with_section("<!-- begin a -->\n", "a", "x\n"), hmps::InputError);
-}
-
 TEST(Settings, NameWhatIsMissingOrOfTheOtherKind) {
   const Settings settings = formula().standard();
   EXPECT_THROW((void)settings.number("spacing"), hmps::InputError);
   EXPECT_THROW((void)settings.number("scalar"), hmps::InputError);
   EXPECT_THROW((void)settings.word("h"), hmps::InputError);
   EXPECT_THROW((void)settings.with("spacing", 1.), hmps::InputError);
-}
-TEST(Rounded, IsReadable) {
-  EXPECT_EQ(rounded(1.2345), "1.23");
-  EXPECT_EQ(rounded(0.0123456), "0.0123");
-  EXPECT_EQ(rounded(123456), "123000");
-  EXPECT_EQ(rounded(-12.0), "-12");
-  EXPECT_EQ(rounded(0), "0");
-  EXPECT_EQ(counted(15.8e9), "15.8 G");
 }
 TEST(Meter, CountsTheMemoryThatIsHeld) {
   Meter meter;

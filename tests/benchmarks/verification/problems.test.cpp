@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "page.hpp"
-#include "parts.hpp"
-#include "support.hpp"
+#include "verification/problems.hpp"
+#include "verification/results.hpp"
+#include "verification/support.hpp"
 
 namespace {
 
@@ -45,7 +45,7 @@ struct Falling {
   Problem (*problem)();
   const Method& method;
   int coarse, fine;
-  double order;  ///< what docs/verification.md has for these and finer spacings, rounded down to a half
+  double order;  ///< what docs/measured/verification.md has for these and finer spacings, rounded down to a half
 };
 
 /// The tolerance of the finer run is the error of the coarser one times the ratio of the spacings to the power of

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "../../roofline.hpp"
-#include "../../support.hpp"
+#include "components/roofline.hpp"
+#include "components/support.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/internal_force.hpp"

@@ -8,7 +8,9 @@ Usage: page.py BENCHMARKS_JSON PAGE
 import json
 import pathlib
 import sys
-import textwrap
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "report"))
+from pages import table, words, write  # noqa: E402
 
 PAPER = "75200"
 KINDS = ("float", "mixed", "double")
@@ -47,15 +49,6 @@ def digits(value, count=3):
 
 def size(particles):
     return f"{int(particles):,}"
-
-
-def table(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
-
-
-def words(text):
-    return textwrap.wrap(text, 120, break_on_hyphens=False) + [""]
 
 
 class Page:
@@ -144,7 +137,7 @@ class Page:
         yield from ["## Where the limits are", ""]
         yield from words("Measured on one core: multiply-adds in registers, a = b + s c over working sets of three "
                          "arrays, and 64 bytes from places that are not aligned in the first-level cache, as bonds read "
-                         "the values of neighbours that follow each other (`benchmarks/roofline.hpp`).")
+                         "the values of neighbours that follow each other (`benchmarks/components/roofline.hpp`).")
         rows = [[f"multiply-adds, {kind}", f"{self.peak(kind) * 1e-9:.0f} GFLOP/s"]
                 for kind in ("float", "double")]
         rows += [[f"neighbours, {kind}", f"{self.runs[f'roofline/gather/{kind}']['bytes_per_second'] * 1e-9:.0f} GB/s"]
@@ -153,7 +146,7 @@ class Page:
             rows.append([f"memory, {size(n)} KiB",
                          f"{self.runs[f'roofline/triad/{n}']['bytes_per_second'] * 1e-9:.0f} GB/s"])
         yield from table(["Limit", "Rate"], rows)
-        yield from words("A particle-step is counted from the equations and the arrays (`benchmarks/cost.hpp`): "
+        yield from words("A particle-step is counted from the equations and the arrays (`benchmarks/components/cost.hpp`): "
                          "operations of the sums as they stand in theory.md, whatever a kernel saves or wastes; bytes "
                          "of each array once per pass. The share of the roofline is the particle-steps per second over "
                          "the lower of what multiply-adds and memory (at the working set of the box) allow; neighbours "
@@ -235,7 +228,7 @@ class Page:
 
 def main():
     runs, context = read(sys.argv[1])
-    pathlib.Path(sys.argv[2]).write_text("\n".join(Page(runs, context).lines()).rstrip() + "\n")
+    write(pathlib.Path(sys.argv[2]), Page(runs, context).lines())
 
 
 if __name__ == "__main__":

@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "page.hpp"
+#include "report/table.hpp"
+#include "report/text.hpp"
 
 namespace stability {
+
+using report::digits, report::places, report::Table;
 
 // The groups of the survival map. `quick` leaves out most of a group, and keeps what must hold.
 

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace tradeoff {
+/// Beams: the theory that benchmarks of bending are compared with.
+namespace scenes {
 
 /// A prismatic beam of square section, of an isotropic elastic material. SI units.
 struct SquareBeam {
@@ -18,10 +19,23 @@ struct SquareBeam {
 /// How a beam is held at its first end; the other is free.
 enum class End { clamped, free };
 
+/// The wave number times the length of the first mode of Euler and Bernoulli: of cos(b) cosh(b) = -1 (clamped) and
+/// = 1 (free).
+inline constexpr double clamped_root = 1.8751040687119611, free_root = 4.7300407448627040;
+
+/// The first mode of a clamped beam where the wave number times the distance from the clamp is `phase`; 1 at its end.
+[[nodiscard]] inline double clamped_mode(double phase) {
+  return (std::cosh(phase) - std::cos(phase) - 0.7340955137589128 * (std::sinh(phase) - std::sin(phase))) / 2;
+}
+/// The mode of a free beam whose wave number times its length is `root`; 1 at its ends.
+[[nodiscard]] inline double free_mode(double root, double phase) {
+  const double ratio = (std::cosh(root) - std::cos(root)) / (std::sinh(root) - std::sin(root));
+  return (std::cosh(phase) + std::cos(phase) - ratio * (std::sinh(phase) + std::sin(phase))) / 2;
+}
+
 /// The first bending frequency in Hz by Euler and Bernoulli: b^2 sqrt(E I / (rho A)) / L^2, over 2 pi.
 [[nodiscard]] inline double euler_bernoulli_frequency(const SquareBeam& b, End end) {
-  // Of cos(b) cosh(b) = -1 (clamped) and = 1 (free).
-  const double root = end == End::clamped ? 1.8751040687119611 : 4.7300407448627040;
+  const double root = end == End::clamped ? clamped_root : free_root;
   return root * root * std::sqrt(b.young * b.second_moment() / (b.density * b.area())) /
          (2 * std::numbers::pi * b.length * b.length);
 }
@@ -71,4 +85,4 @@ enum class End { clamped, free };
   return low / (2 * std::numbers::pi);
 }
 
-}  // namespace tradeoff
+}  // namespace scenes

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "cost.hpp"
+#include "components/cost.hpp"
 #include "hmps/lanes/lanes.hpp"
 
 /// The limits of one core that the time of a kernel is compared with: multiply-adds, memory traffic, and what a bond

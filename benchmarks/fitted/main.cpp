@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How far a clamped plate of fitted particles bends, whichever way it lies: prints the table of docs/fitted.md.
-// Arguments: spacings in mm.
+// How far a clamped plate of fitted particles bends, whichever way it lies. See --help.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <hmps/hmps.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "../../examples/common/numbers.hpp"
-#include "../../examples/common/streams.hpp"
+#include "report/study.hpp"
+#include "report/text.hpp"
+#include "scenes/body.hpp"
 
 namespace {
 
@@ -46,8 +46,8 @@ struct Placement {
   std::vector<Vector> reference = fit(at, 0, length, spacing);
   const std::size_t moving = reference.size();
   for (const Vector& x : fit(at, -held, 0, spacing)) reference.push_back(x);
-  std::vector<Vector> x = reference, v(x.size(), Vector::Zero()), f = v;
-  const hmps::BondList<double, 3> bonds(hmps::vectors(reference), {.spacing = spacing});
+  scenes::Body<3> body(spacing, reference);
+  const hmps::BondList<double, 3> bonds(body.X(), {.spacing = spacing});
   auto law = hmps::MooneyRivlin<>::from_young(100e3, 1e6);
   const double shear = law.shear_modulus();
   hmps::SheetStabiliser<double> chosen{hmps::shear_wave_modulus(shear), {law.bulk_modulus(), 0.0}};
@@ -61,7 +61,7 @@ struct Placement {
         for (int c = 0; c < 3; ++c) fs(i, c) -= load * at.normal()[c];
     };
     hmps::relax(
-        force, hmps::vectors(x), hmps::vectors(v), hmps::vectors(f), 1000.0,
+        force, body.x(), body.v(), body.f(), 1000.0,
         {.spacing = spacing, .tolerance = 2e-3, .load = load * length * width * thickness, .moves = [&](std::size_t i) {
            return i < moving;
          }});
@@ -74,44 +74,46 @@ struct Placement {
   // The line through the displacements of the last 7 mm, at the end.
   double n = 0, a = 0, aa = 0, w = 0, aw = 0;
   for (std::size_t i = 0; i < moving; ++i) {
-    const double along = at.local(reference[i])[0] - length, down = -(x[i] - reference[i]).dot(at.normal());
+    const double along = at.local(reference[i])[0] - length, down = -body.displacement(i).dot(at.normal());
     if (along < -7e-3) continue;
     n += 1, a += along, aa += along * along, w += down, aw += down * along;
   }
   return 1e3 * (w * aa - aw * a) / (n * aa - a * a);
 }
 
-void row(double spacing, bool sheet) {
+/// Adds a row of the table: the plate in `tilts` (degrees), twice each.
+void add_row(report::Table& table, double spacing, bool sheet, const std::vector<double>& tilts) {
+  using report::places;
   double sum = 0, squares = 0, least = 1e9, most = 0;
   int runs = 0;
-  for (const double degrees : {15.0, 30.0, 45.0, 65.0})
+  for (const double degrees : tilts)
     for (const Vector& by : {Vector(0.31, 0.17, 0.43), Vector(0.83, 0.59, 0.07)}) {
       const double w = tip(Placement(degrees, by * spacing), spacing, sheet);
       sum += w, squares += w * w, ++runs;
       least = std::min(least, w), most = std::max(most, w);
     }
-  const double mean = sum / runs;
-  std::printf("| %.1f | %.0f | %s | %.3f | %.3f to %.3f | %.1f %% | %+.1f %% |\n", 1e3 * spacing,
-              std::round(thickness / spacing), sheet ? "sheet_stabiliser" : "4/3 mu", mean, least, most,
-              100 * std::sqrt(std::max(0.0, squares / runs - mean * mean)) / mean, 100 * (mean / answer - 1));
-  std::fflush(stdout);
+  const double mean = sum / runs, scatter = std::sqrt(std::max(0.0, squares / runs - mean * mean)) / mean;
+  const double error = mean / answer - 1;
+  table.rows.push_back({places(1e3 * spacing, 1), places(std::round(thickness / spacing), 0),
+                        sheet ? "sheet_stabiliser" : "4/3 mu", places(mean), places(least) + " to " + places(most),
+                        places(100 * scatter, 1) + " %", (error < 0 ? "" : "+") + places(100 * error, 1) + " %"});
+  table.check(scatter < 0.05, "at " + places(1e3 * spacing, 1) + " mm the tip depends on how the plate lies");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  examples::check_standard_streams("fitted_plate");
-  std::vector<double> spacings;
-  for (int k = 1; k < argc; ++k) {
-    const auto spacing = examples::decimal<double>(argv[k]);
-    if (!spacing || *spacing < 0.1 || *spacing > 5) {
-      std::fprintf(stderr, "fitted_plate: the spacing in mm must be a number from 0.1 to 5, not '%s'\n", argv[k]);
-      return 2;
-    }
-    spacings.push_back(*spacing);
-  }
-  if (spacings.empty()) spacings = {2.4, 1.8, 1.6, 1.2};
-  std::puts("| spacing (mm) | layers | E_hat | tip (mm) | from to | scatter | error |\n|---|---|---|---|---|---|---|");
-  for (const double spacing : spacings)
-    for (const bool sheet : {false, true}) row(1e-3 * spacing, sheet);
+  report::Study study("fitted", "How far a clamped plate of fitted particles bends, whichever way it lies",
+                      "the coarsest spacing at one tilt, to see that it works");
+  std::vector<double> spacings{2.4, 1.8, 1.6, 1.2};
+  study.app.add_option("spacings", spacings, "in mm")->capture_default_str();
+  return study.run(argc, argv, [&] {
+    std::vector<double> tilts{15, 30, 45, 65};
+    if (study.quick) spacings = {2.4}, tilts = {30};
+    report::Table table{.name = "plate",
+                        .header = {"spacing (mm)", "layers", "E_hat", "tip (mm)", "from to", "scatter", "error"}};
+    for (const double spacing : spacings)
+      for (const bool sheet : {false, true}) add_row(table, 1e-3 * spacing, sheet, tilts);
+    study.publish(table);
+  });
 }

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "cost.hpp"
+#include "components/cost.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/view.hpp"
 #ifdef _OPENMP

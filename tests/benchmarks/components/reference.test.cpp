@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "../hmps/force/equations.hpp"
+#include "../../hmps/force/equations.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 //                              is operations per second
 //   roofline/gather/KIND       64 bytes from places that are not aligned, in the first-level cache; bytes per second
 //   roofline/triad/KIBIBYTES   a = b + s c over a working set of this size; bytes per second
-#include "roofline.hpp"
+#include "components/roofline.hpp"
 
 #include <fstream>
 
-#include "support.hpp"
+#include "components/support.hpp"
 
 namespace {
 

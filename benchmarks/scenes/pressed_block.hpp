@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <hmps/hmps.hpp>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace scenes {
+
+/// The particles of a block on a wall, those of the block first, and their parts.
+struct BlockOnWall {
+  std::vector<hmps::Vector<double, 3>> places = {};              ///< m
+  std::size_t block = 0;                                         ///< so many are the block's
+  std::vector<hmps::Index> bottom = {}, lower = {}, plate = {};  ///< of the block: slaves, masters, what a plate leads
+  std::vector<hmps::Index> skin = {}, wall = {};                 ///< of the wall: slaves, masters
+
+  /// Adds a particle of the block; those of the wall come after.
+  void add(const hmps::Vector<double, 3>& place, bool is_bottom, bool is_lower, bool is_led) {
+    const auto index = static_cast<hmps::Index>(places.size());
+    if (is_bottom) bottom.push_back(index);
+    if (is_lower) lower.push_back(index);
+    if (is_led) plate.push_back(index);
+    places.push_back(place);
+    block = places.size();
+  }
+  void add_to_wall(const hmps::Vector<double, 3>& place, bool is_skin) {
+    wall.push_back(static_cast<hmps::Index>(places.size()));
+    if (is_skin) skin.push_back(wall.back());
+    places.push_back(place);
+  }
+};
+
+/// SI units.
+struct BlockSettings {
+  double spacing, density, young, d1, modulus, viscosity;  ///< of the block; the modulus is E_hat
+  double pressure, area;                                   ///< of the plate on top
+  double friction, ratio;                                  ///< of the contact; the ratio is k~
+  double damping = 0, margin = 0.5;
+};
+
+template <class B, class M>
+[[nodiscard]] auto force_in(const B& bonds, const M& F, const BlockSettings& s) {
+  return hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(s.young, s.d1)),
+                              hmps::artificial(s.modulus), hmps::viscous(s.density, s.viscosity), hmps::record(F));
+}
+
+/// A block of soft tissue on a rigid wall, pressed by a rigid plate that sinks as the block lets it. Its state is in
+/// `S`, the rest in the scalar of `Bonds`.
+template <class Bonds, class S, class Ball, class Friction>
+struct PressedBlock {
+  using K = typename Bonds::Scalar;
+  using Vector = hmps::Vector<S, 3>;
+
+  BlockOnWall parts;
+  BlockSettings settings;
+  std::vector<Vector> velocity, load, carry, position;
+  std::vector<hmps::Matrix<K, 3>> gradient;
+  Bonds bonds;
+  decltype(force_in(std::declval<const Bonds&>(), std::declval<hmps::MatrixView<K, 3>>(),
+                    std::declval<const BlockSettings&>())) force;
+  double dt;           ///< s
+  double sinking = 0;  ///< of the plate, m/s, upward
+  hmps::MetaballContact<K, 3, Ball, Friction> contact;
+  std::size_t pair;
+
+  /// `choose(force, x, v)`: the step in s.
+  template <class Choose>
+  PressedBlock(BlockOnWall of, const BlockSettings& s, Choose&& choose)
+      : parts(std::move(of)),
+        settings(s),
+        velocity(parts.places.size(), Vector::Zero()),
+        load(velocity),
+        carry(velocity),
+        gradient(parts.places.size(), hmps::Matrix<K, 3>::Identity()),
+        bonds((place(), block(x())), {.spacing = s.spacing}),
+        force(force_in(bonds, block(F()), s)),
+        dt(choose(force, block(x()), block(v()))),
+        contact({.spacing = s.spacing,
+                 .density = s.density,
+                 .friction = s.friction,
+                 .stiffness = hmps::PenaltyStiffness::fixed(s.ratio * s.density / (dt * dt)),
+                 .damping = s.damping,
+                 .margin = s.margin}) {
+    const auto below = contact.add_organ({"wall", parts.skin, parts.wall, [](hmps::Index) { return true; }});
+    pair = contact.add_pair(below, contact.add_organ({"block", parts.bottom, parts.lower}));
+  }
+
+  [[nodiscard]] auto x() { return hmps::vectors(position); }
+  [[nodiscard]] auto v() { return hmps::vectors(velocity); }
+  [[nodiscard]] auto f() { return hmps::vectors(load); }
+  [[nodiscard]] auto F() { return hmps::matrices(gradient); }
+  /// The part of a view that is the block.
+  template <class View>
+  [[nodiscard]] auto block(const View& view) const {
+    return view.part(0, parts.block);
+  }
+
+  void place() {
+    for (const auto& where : parts.places) position.push_back(where.template cast<S>());
+  }
+  void unload() { std::fill(load.begin(), load.end(), Vector::Zero()); }
+  /// Lets the plate sink for a step under its pressure and what the block does to it.
+  void sink() {
+    const double volume = settings.spacing * settings.spacing * settings.spacing;
+    double lift = -settings.pressure * settings.area;
+    for (const hmps::Index i : parts.plate) lift += static_cast<double>(load[i][2]) * volume;
+    if (!parts.plate.empty())
+      sinking += dt * lift / (static_cast<double>(parts.plate.size()) * volume * settings.density);
+  }
+  /// Kicks the block for `time`, then leads the plate at `speed` along the wall.
+  void kick(double time, double speed) {
+    hmps::kick(block(v()), block(f()), settings.density, time);
+    for (const hmps::Index i : parts.plate) velocity[i] = Vector(static_cast<S>(speed), S(0), static_cast<S>(sinking));
+  }
+  /// Adds the force of contact over `time`, for particles seen at `places`.
+  void touch(const hmps::VectorView<S, 3>& places, double time) { (void)contact(places, v(), F(), time, f()); }
+  [[nodiscard]] hmps::Vector<double, 3> on_wall() const { return contact.force_on_first(pair); }
+  void drift() {
+    if constexpr (std::is_same_v<S, float>)
+      hmps::drift(block(x()), block(v()), block(hmps::vectors(carry)), dt);
+    else
+      hmps::drift(block(x()), block(v()), dt);
+  }
+};
+
+}  // namespace scenes

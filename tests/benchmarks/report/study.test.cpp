@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "report/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/files.hpp"
+
+namespace {
+
+using namespace report;
+namespace fs = std::filesystem;
+
+class Program : public ::testing::Test {
+ protected:
+  Program() : folder_(fs::path(::testing::TempDir()) / "hmps_report_study") { fs::remove_all(folder_); }
+  ~Program() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  int run(const std::vector<std::string>& arguments, const std::function<void(Study&)>& measure) {
+    Study study("study", "A study.", "less");
+    std::vector<std::string> all = arguments;
+    all.insert(all.begin(), "study");
+    std::vector<char*> argv;
+    for (std::string& argument : all) argv.push_back(argument.data());
+    return study.run(static_cast<int>(argv.size()), argv.data(), [&] { measure(study); });
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Program, PublishesATableItsSectionAndItsPicture) {
+  const auto measure = [](Study& study) {
+    EXPECT_TRUE(study.quick);
+    study.publish({.name = "one", .header = {"a"}, .rows = {{"1"}}},
+                  {"one.png", "a picture", [](const auto& file) { examples::write_atomically(file, "drawn"); }});
+  };
+  ASSERT_EQ(run({"--quick", "--out", path("out"), "--document", path("page/study.md")}, measure), 0);
+  EXPECT_EQ(examples::read_file(path("out/one.csv")), "a\n1\n");
+  EXPECT_EQ(examples::read_file(path("page/images/one.png")), "drawn");
+  EXPECT_EQ(examples::read_file(path("page/study.md")),
+            "\n<!-- begin one -->\n\n| a |\n|---|\n| 1 |\n\n![a picture](images/one.png)\n\n<!-- end one -->\n");
+}
+TEST_F(Program, WritesNoPageThatIsNotAskedFor) {
+  ASSERT_EQ(run({"--out", path("out")},
+                [](Study& study) {
+                  EXPECT_FALSE(study.quick);
+                  study.publish({.name = "one", .header = {"a"}}, {"one.png", "", [](const auto&) { FAIL(); }});
+                }),
+            0);
+  EXPECT_TRUE(fs::exists(path("out/one.csv")));
+}
+TEST_F(Program, SaysWhatDoesNotHoldOnThePageAndByItsExitCode) {
+  const auto measure = [](Study& study) {
+    Table table{.name = "one", .header = {"a"}};
+    table.check(false, "it is broken");
+    study.publish(table);
+    study.publish({.name = "two", .header = {"a"}});
+  };
+  EXPECT_EQ(run({"--out", path("out"), "--document", path("study.md")}, measure), 1);
+  EXPECT_NE(examples::read_file(path("study.md")).find("Does not hold: one: it is broken.\n"), std::string::npos);
+}
+TEST_F(Program, EndsWithTwoWhereItFails) {
+  EXPECT_EQ(run({"--out", path("out")}, [](Study&) { throw hmps::InputError("no"); }), 2);
+  examples::prepare_folder(path(""));
+  examples::write_atomically(path("file"), "");
+  EXPECT_EQ(run({"--out", path("file/out")}, [](Study&) { FAIL() << "there is no folder"; }), 2);
+}
+
+}  // namespace
