@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/lanes/blocks.hpp"
@@ -59,10 +60,12 @@ concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &
 };
 
 namespace detail {
+template <class B>
+struct IsBonds : std::bool_constant<Bonds<B>> {};
 /// Fails where `B` is none, with its name in the first line of the message.
 template <class B>
 struct RequireBonds {
-  static_assert(Bonds<B>,
+  static_assert(IsBonds<B>::value,
                 "hmps: bonds need to be derived from Blocks<K, D> and to have Slots<N>, for_each_row(block, visit) and "
                 "for_each_bond(i, visit), const; see Bonds");
 };

@@ -20,11 +20,13 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
+template <class Term, class K, int D>
+struct IsTerm : std::bool_constant<ForceTerm<Term, K, D>> {};
 /// Fails where `Term` is no term of a force, or holds a law that is none, with its name in the first line of the
 /// message.
 template <class Term, class K, int D>
 struct RequireTerm {
-  static_assert(ForceTerm<Term, K, D>,
+  static_assert(IsTerm<Term, K, D>::value,
                 "hmps: a term of internal_force needs couple(particles, coupling), damping(bonds), damping(particles), "
                 "pressure(particles, theta), tension(bond) or body_force(particles), const; see ForceTerm");
   static constexpr bool value = true;

@@ -47,10 +47,13 @@ template <class Law, class T = double, int D = 3>
 concept ConstitutiveLaw = HyperelasticLaw<Law, T, D> || DeformationGradientLaw<Law, T, D>;
 
 namespace detail {
+/// A trait, since clang names the type in the message of one, but not of a concept.
+template <class Law, class T, int D>
+struct IsLaw : std::bool_constant<ConstitutiveLaw<Law, T, D>> {};
 /// Fails where `Law` is none, with its name in the first line of the message.
 template <class Law, class T, int D>
 struct RequireLaw {
-  static_assert(ConstitutiveLaw<Law, T, D>,
+  static_assert(IsLaw<Law, T, D>::value,
                 "hmps: a law needs second_piola_kirchhoff(C, J) or first_piola_kirchhoff(F), const, taking and "
                 "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar");
   static constexpr bool value = true;
