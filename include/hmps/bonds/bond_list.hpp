@@ -74,7 +74,7 @@ class BondList : public Blocks<K, D> {
           halves[l / half_width].push_back({first_of(this->slot(j), l), static_cast<std::uint32_t>(l), K(w)});
           shape.add(r0, w);
         }
-        this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
+        this->keep_shape(i, shape.inverse(i, settings.unbonded), shape.asymmetry, shape.A.trace());
         if (shape.weight > fullest.weight) fullest = shape;
       }
       add_rows(halves);

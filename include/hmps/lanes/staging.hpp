@@ -49,9 +49,10 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
 }
 
 /// The displacement (m) of a particle in the middle of the order of the sweeps, zero where it is not
-/// finite.
+/// finite; or what `Blocks::subtract_displacement` was given.
 template <class K, int D, class T>
 [[nodiscard]] Vector<double, D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
+  if (blocks.subtracted_displacement()) return *blocks.subtracted_displacement();
   Vector<double, D> common = Vector<double, D>::Zero();
   if (blocks.size() == 0) return common;
   const Index i = blocks.particle(blocks.size() / 2);
