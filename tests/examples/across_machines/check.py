@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks examples/across_machines: the same bits on any number of ranks, also resumed on another number; clear errors.
+
+Usage: check.py PROGRAM
+"""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+program = sys.argv[1]
+folder = pathlib.Path(tempfile.mkdtemp())
+PARTICLES, STEPS = 2500, 250
+
+
+def command(ranks, out, *more):
+    return ["mpirun", "--oversubscribe", "--allow-run-as-root", "--mca", "btl", "self,vader", "-n", str(ranks), program,
+            "--particles", str(PARTICLES), "--steps", str(STEPS), "--every", "50", "--out", str(folder / out), *more]
+
+
+def run(ranks, out, *more):
+    return subprocess.run(command(ranks, out, *more), capture_output=True, text=True, timeout=600)
+
+
+def state_of(ranks, out, *more):
+    done = run(ranks, out, *more)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "late" not in done.stdout, done.stdout
+    return (folder / out).read_bytes(), done.stdout
+
+
+def touching(text):
+    return int(text.split("particles feel contact")[-2].split()[-1])
+
+
+def same_bits():
+    """Contact acts, has been surveyed anew on the way, and nothing depends on the number of ranks."""
+    plain, _ = state_of(1, "plain", "--plain")
+    for ranks in (1, 2, 3, 4, 7):
+        state, text = state_of(ranks, f"ranks{ranks}")
+        assert state == plain, f"{ranks} ranks give other bits than a plain run"
+        assert touching(text) > 20, text
+        surveys = int(text.split("surveys")[-2].split()[-1])
+        assert surveys >= 2, text
+    other, _ = state_of(2, "other", "--time-step", "1.9e-5")
+    assert other != plain, "the comparison cannot fail"
+    return plain
+
+
+def killed_and_resumed(whole):
+    """A rank dies: the run ends with an error, and what was written lets another number of ranks go on."""
+    out = folder / "killed"
+    run_of_three = subprocess.Popen(command(3, "killed", "--steps", "1000000"), stdout=subprocess.PIPE,
+                                    stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 300
+    while not out.exists():
+        assert run_of_three.poll() is None and time.monotonic() < deadline, run_of_three.communicate()
+        time.sleep(0.05)
+    children = pathlib.Path(f"/proc/{run_of_three.pid}/task/{run_of_three.pid}/children").read_text().split()
+    ranks = [int(c) for c in children if pathlib.Path(f"/proc/{c}/comm").read_text().startswith("across_machines"[:15])]
+    assert len(ranks) == 3, children
+    os.kill(ranks[1], signal.SIGKILL)
+    _, errors = run_of_three.communicate(timeout=60)
+    assert run_of_three.returncode != 0
+    assert "signal 9 (Killed)" in errors, errors
+    assert out.read_bytes()[:23] == b"hmps across_machines 1\n"
+
+
+def resumed(whole):
+    state_of(4, "resumed", "--steps", "90")
+    on_two, _ = state_of(2, "resumed", "--steps", "170", "--resume")
+    assert on_two != whole
+    on_seven, _ = state_of(7, "resumed", "--resume")
+    assert on_seven == whole, "a run resumed on another number of ranks has other bits"
+
+
+def refused():
+    def says(done, *words):
+        assert done.returncode != 0
+        for word in words:
+            assert word in done.stderr, (word, done.stderr)
+
+    before = (folder / "resumed").read_bytes()
+    says(run(3, "resumed", "--resume", "--time-step", "1e-5"), "rank 0", "resume with the same settings")
+    says(run(2, "nothing", "--resume"), "rank 0", "cannot read")
+    damaged = bytearray(before)
+    damaged[1000] ^= 1
+    (folder / "damaged").write_bytes(damaged)
+    says(run(2, "damaged", "--resume"), "damaged: its checksum")
+    says(run(3, "resumed", "--resume", "--plain"), "--plain is for one rank")
+    # A run that becomes unstable after it has resumed; what was written stays.
+    says(run(3, "unstable", "--time-step", "1e-3"), "rank", "try a smaller time step")
+    assert (folder / "resumed").read_bytes() == before
+
+
+whole = same_bits()
+resumed(whole)
+killed_and_resumed(whole)
+refused()
+print("the same bits on 1, 2, 3, 4 and 7 ranks, resumed on other numbers, and clear errors")
