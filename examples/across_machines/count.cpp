@@ -4,7 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,13 +37,41 @@ std::vector<Count> counts_of(double particles, int most) {
   return counts;
 }
 
+/// The counts in the file at `path`, of one size in each line.
+std::vector<std::vector<Count>> read_counts(const std::string& path) {
+  std::vector<std::vector<Count>> all;
+  std::istringstream lines(examples::read_file(path));
+  std::string line;
+  std::getline(lines, line);  // the header
+  for (Count c; std::getline(lines, line); c = {}) {
+    std::istringstream fields(line);
+    const bool read = static_cast<bool>(fields >> c.particles >> c.parts >> c.own >> c.layer >> c.gathered >> c.peers >>
+                                        c.without_contact >> c.bytes >> c.contact >> c.all_bytes);
+    hmps::require(read && (c.parts == 1 || !all.empty()), "hmps: cannot read a line of ", path, ": ", line);
+    if (c.parts == 1) all.emplace_back();
+    all.back().push_back(c);
+  }
+  hmps::require(!all.empty(), "hmps: there are no counts in ", path);
+  return all;
+}
+
+void write_counts(const std::string& path, const std::vector<std::vector<Count>>& all) {
+  std::ostringstream text;
+  text << "particles parts own layer gathered peers without_contact bytes contact all_bytes\n" << std::setprecision(15);
+  for (const auto& row : all)
+    for (const Count& c : row)
+      text << c.particles << ' ' << c.parts << ' ' << c.own << ' ' << c.layer << ' ' << c.gathered << ' ' << c.peers
+           << ' ' << c.without_contact << ' ' << c.bytes << ' ' << c.contact << ' ' << c.all_bytes << '\n';
+  examples::write_atomically(path, text.str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Measured measured;
   double largest = 20e6;
   int most = 1024, sizes = 6;
-  std::string out;
+  std::string counts, out;
   CLI::App app("Counts the messages and the balance of across_machines, and models its time.", "across_machines_count");
   app.add_option("--largest", largest, "particles of the largest scene; each next has a quarter")
       ->capture_default_str();
@@ -59,11 +90,18 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--machine", measured.machine, "on what was measured")->capture_default_str();
+  app.add_option("--counts", counts, "reads the counts from this file or, if it is not there, writes them to it")
+      ->type_name("FILE");
   app.add_option("--out", out, "the page; without it, it goes to standard output")->type_name("FILE");
   CLI11_PARSE(app, argc, argv);
   try {
     std::vector<std::vector<Count>> all;
-    for (int s = 0; s < sizes; ++s) all.push_back(counts_of(largest / std::pow(4, s), most));
+    if (!counts.empty() && std::filesystem::exists(counts)) {
+      all = read_counts(counts);
+    } else {
+      for (int s = 0; s < sizes; ++s) all.push_back(counts_of(largest / std::pow(4, s), most));
+      if (!counts.empty()) write_counts(counts, all);
+    }
     const std::string page = page_of(all, measured);
     if (out.empty())
       std::cout << page;

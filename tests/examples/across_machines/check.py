@@ -19,8 +19,13 @@ PARTICLES, STEPS = 2500, 250
 
 
 def command(ranks, out, *more):
-    return ["mpirun", "--oversubscribe", "--allow-run-as-root", "--mca", "btl", "self,vader", "-n", str(ranks), program,
-            "--particles", str(PARTICLES), "--steps", str(STEPS), "--every", "50", "--out", str(folder / out), *more]
+    options = {"--particles": PARTICLES, "--steps": STEPS, "--every": 50, "--out": folder / out}
+    more = list(more)
+    while len(more) > 1 and not more[1].startswith("--"):  # in place of those above
+        option = more.pop(0)
+        options[option] = more.pop(0)
+    settings = [str(word) for option in options.items() for word in option]
+    return ["mpirun", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks), program, *settings, *more]
 
 
 def run(ranks, out, *more):
@@ -86,7 +91,7 @@ def refused():
             assert word in done.stderr, (word, done.stderr)
 
     before = (folder / "resumed").read_bytes()
-    says(run(3, "resumed", "--resume", "--time-step", "1e-5"), "rank 0", "resume with the same settings")
+    says(run(3, "resumed", "--time-step", "1e-5", "--resume"), "rank 0", "resume with the same settings")
     says(run(2, "nothing", "--resume"), "rank 0", "cannot read")
     damaged = bytearray(before)
     damaged[1000] ^= 1
