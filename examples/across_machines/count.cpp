@@ -70,7 +70,7 @@ void write_counts(const std::string& path, const std::vector<std::vector<Count>>
 int main(int argc, char** argv) {
   Measured measured;
   double largest = 20e6;
-  int most = 1024, sizes = 6;
+  int most = 1024, sizes = 7;
   std::string counts, out;
   CLI::App app("Counts the messages and the balance of across_machines, and models its time.", "across_machines_count");
   app.add_option("--largest", largest, "particles of the largest scene; each next has a quarter")
@@ -89,7 +89,6 @@ int main(int argc, char** argv) {
   app.add_option("--bandwidth", measured.bandwidth, "GB/s between two ranks over TCP, as measured")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--machine", measured.machine, "on what was measured")->capture_default_str();
   app.add_option("--counts", counts, "reads the counts from this file or, if it is not there, writes them to it")
       ->type_name("FILE");
   app.add_option("--out", out, "the page; without it, it goes to standard output")->type_name("FILE");
