@@ -54,12 +54,13 @@ std::uint64_t start(const Options& options, const Scene& scene, const Ranks& ran
 }
 
 void report(const Ranks& ranks, const Simulation& simulation, std::uint64_t step, double dt) {
-  std::uint64_t counts[] = {simulation.contact().touching(), simulation.contact().late()}, sums[2];
-  MPI_Reduce(counts, sums, 2, MPI_UINT64_T, MPI_SUM, 0, ranks.comm);
+  const ContactOfRank& contact = simulation.contact();
+  std::uint64_t counts[] = {contact.touching(), contact.late(), contact.gathered() == 0 ? 1U : 0U}, sums[3];
+  MPI_Reduce(counts, sums, 3, MPI_UINT64_T, MPI_SUM, 0, ranks.comm);
   if (ranks.rank != 0) return;
-  std::printf("step %llu, t = %.5f s: %llu particles feel contact, after %zu surveys\n",
+  std::printf("step %llu, t = %.5f s: %llu particles feel contact, %llu ranks have none, after %zu surveys\n",
               static_cast<unsigned long long>(step), static_cast<double>(step) * dt,
-              static_cast<unsigned long long>(sums[0]), simulation.contact().surveys());
+              static_cast<unsigned long long>(sums[0]), static_cast<unsigned long long>(sums[2]), contact.surveys());
   if (sums[1] > 0)
     std::printf("  contact was seen late %llu times: bits may depend on the number of ranks; try a smaller step\n",
                 static_cast<unsigned long long>(sums[1]));

@@ -7,6 +7,7 @@ Usage: check.py PROGRAM
 
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -39,8 +40,12 @@ def state_of(ranks, out, *more):
     return (folder / out).read_bytes(), done.stdout
 
 
+def last_number(pattern, text):
+    return int(re.findall(pattern, text)[-1])
+
+
 def touching(text):
-    return int(text.split("particles feel contact")[-2].split()[-1])
+    return last_number(r"(\d+) particles feel contact", text)
 
 
 def same_bits():
@@ -50,8 +55,11 @@ def same_bits():
         state, text = state_of(ranks, f"ranks{ranks}")
         assert state == plain, f"{ranks} ranks give other bits than a plain run"
         assert touching(text) > 20, text
-        surveys = int(text.split("surveys")[-2].split()[-1])
-        assert surveys >= 2, text
+        assert last_number(r"after (\d+) surveys", text) >= 2, text
+    # A rank without contact goes on.
+    state, text = state_of(16, "ranks16", "--steps", "50")
+    assert last_number(r"(\d+) ranks have none", text) > 0, text
+    assert state == state_of(1, "fifty", "--steps", "50", "--plain")[0]
     other, _ = state_of(2, "other", "--time-step", "1.9e-5")
     assert other != plain, "the comparison cannot fail"
     return plain
