@@ -16,8 +16,11 @@ struct Measured {
   double force = 20, contact = 7;       ///< million particles/s of one core
   double latency = 9, bandwidth = 3.8;  ///< us and GB/s between two ranks over TCP
   std::string source =
-      "the force by docs/benchmarks.md, mixed, 300 thousand to a million particles on a quiet machine; contact by its "
-      "share of a run of 20,000 particles of this example, on a busy one; messages by --measure-network there";
+      "Of these, the force is\nthat of docs/benchmarks.md, mixed, at 300 thousand to a million particles on a quiet "
+      "machine; "
+      "contact follows from\nits share of the time of 20,000 particles in touch here, on a busy one (0.33 and 0.49 of "
+      "the "
+      "rate of the force in two\nruns; 0.35 is taken); messages are those of `--measure-network` there.";
 };
 
 __attribute__((format(printf, 1, 2))) [[nodiscard]] inline std::string format(const char* pattern, ...) {
@@ -39,7 +42,8 @@ inline const char* const introduction = R"(# Across machines
 `examples/across_machines` runs two bodies, control regions and contact on any number of MPI ranks. It is made of the
 public pieces of the library; no header of hmps knows MPI or the graph partitioner. This page says how, what it costs in
 messages, and when it pays. `across_machines_count --counts docs/across_machines.txt --out docs/across_machines.md` writes
-it; the counts are in the text file, and are counted anew where that is missing (some minutes, 6 GB).
+it; the counts are in the text file, and are counted anew where that is missing (170 s of one
+core, 0.75 GB).
 
     sudo apt-get install libopenmpi-dev libmetis-dev
     cmake --preset release && cmake --build --preset release --target across_machines across_machines_count
@@ -121,8 +125,9 @@ Parts of the scene at its start, the block lying on the plate. Columns are numbe
 scaling; each row has four times the particles of the one below it, so that two columns to the right and one row up is
 weak scaling. Up to 400 thousand particles METIS divides the graph of the particles, beyond that the graph of cubes with 2,
 and beyond three million with 4 particles along each side. Cubes that touch across the contact are joined in the graph,
-three times as strongly as by bonds: without that METIS cuts between the two bodies where it can, and a part of 77
-thousand particles in two gets 262 kB a step, of which 200 for contact.
+three times as strongly as by bonds. Without that METIS cuts between the two bodies where it can: 1.25 million particles
+in 4, 8 and 16 parts then received 6.39, 9.5 and 12.9 MB in all, but 77 thousand in 2, 4, 8 and 16 parts only 0.52, 1.13,
+2.02 and 3.17 MB, less than below.
 
 Bytes that the part with most of them receives in each step for its two layers (48 a particle of the first, 24 of the
 second):
@@ -169,17 +174,15 @@ second):
                                       {"InfiniBand of 200 Gb/s, 2 us, assumed", 2e-6, 22e9}};
   std::string text = "\n## Modelled\n\n";
   text += format(
-      "One core does %.3g million particles/s in all but contact and %.3g million gathered particles/s in contact; a "
-      "message "
-      "between two ranks over TCP takes %.3g us, and %.3g GB/s (%s). A step takes as long as its slowest part, each on "
-      "a "
-      "machine of its own:\n\n"
+      "One core does %.3g million particles/s in all but contact and %.3g million gathered particles/s in contact; a\n"
+      "message between two ranks over TCP takes %.3g us, and %.3g GB/s. %s\n\n"
+      "A step takes as long as its slowest part, each on a machine of its own:\n\n"
       "    (own + first layer / 2) / force rate / cores + gathered / contact rate / cores\n"
       "      + (2 + 3 log2 parts) latency + bytes / bandwidth\n\n"
-      "Cores are taken to share the work of a machine evenly, which the example, with one thread a rank, leaves to "
-      "several "
-      "ranks on each machine. Surveys, 3 %% of a step where they were measured, are left out. Networks other than that "
-      "measured are assumed. This is a model: nothing was run on more than one machine.\n",
+      "Cores are taken to share the work of a machine evenly, which the example, with one thread a rank, leaves to\n"
+      "several ranks on each machine. Surveys, 3 %% of a step where they were measured, are left out. Networks other "
+      "than\n"
+      "that measured are assumed. This is a model: nothing was run on more than one machine.\n",
       m.force, m.contact, m.latency, m.bandwidth, m.source.c_str());
   for (const double cores : {2., 32.}) {
     const Rates rates{m.force * 1e6, m.contact * 1e6, cores};
