@@ -55,14 +55,17 @@ class BondList : public Blocks<K, D> {
     const FixedRadiusSearch<T, D> search(reference);
     detail::require_plausible_spacing(search, settings, reach);
     const NeighbourList list = find_neighbours(search, reach);
-    keep_bonds(static_cast<double>(reach), [&](Index i, const auto& keep) {
-      for (const Index j : list[i]) {
-        if (!bonded(std::size_t{i}, std::size_t{j})) continue;
-        const Vector<double, D> r0 = this->reference(j) - this->reference(i);
-        const double w = weight(std::min(r0.norm(), radius), radius);
-        if (w > 0) keep(j, r0, w);
-      }
-    });
+    keep_bonds(
+        static_cast<double>(reach),
+        [&](Index i, const auto& keep) {
+          for (const Index j : list[i]) {
+            if (!bonded(std::size_t{i}, std::size_t{j})) continue;
+            const Vector<double, D> r0 = this->reference(j) - this->reference(i);
+            const double w = weight(std::min(r0.norm(), radius), radius);
+            if (w > 0) keep(j, r0, w);
+          }
+        },
+        settings.unbonded);
   }
 
   /// Bonds of the program's own: `neighbours` says which, as `BondNeighbours` describes, and `weights` is a number for
@@ -177,9 +180,10 @@ class BondList : public Blocks<K, D> {
     });
   }
 
-  /// Keeps the bonds that `visit(i, keep)` names by `keep(j, r0, w)`, none of them longer than `reach` (m).
+  /// Stores the bonds for which `visit(i, keep)` calls `keep(j, r0, w)`; none may be longer than `reach` (m). Particles
+  /// without bonds are an error unless they may be `unbonded`.
   template <class Visit>
-  void keep_bonds(double reach, Visit&& visit) {
+  void keep_bonds(double reach, Visit&& visit, bool unbonded = false) {
     places_ = detail::Places<K, D>(*this, reach);
     groups_.reserve(this->block_count() + 1);
     groups_.push_back({});
@@ -195,7 +199,7 @@ class BondList : public Blocks<K, D> {
           halves[l / half_width].push_back({first_of(this->slot(j), l), static_cast<std::uint32_t>(l), K(w)});
           shape.add(r0, w);
         });
-        this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
+        this->keep_shape(i, shape.inverse(i, unbonded), shape.asymmetry, shape.A.trace());
         if (shape.weight > fullest.weight) fullest = shape;
       }
       add_rows(halves);

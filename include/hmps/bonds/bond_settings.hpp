@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -20,6 +21,13 @@ struct EveryBond {
 struct BondSettings {
   double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
   double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
+  /// Whether particles may be without any bond: those that a part of a body borrows from other parts, and whose forces
+  /// are computed there. Their F is 1. Otherwise such a particle is an error.
+  bool unbonded = false;
+  /// Of `LatticeBonds`: the axes in the order of the sweeps, the slowest first, as `lattice_axes` gives those of the
+  /// whole body. Sums over bonds follow that order, so that with the same axes parts of a body give the same bits as
+  /// the whole. All zero: what suits the particles best.
+  std::array<int, 3> axes{};
 };
 
 namespace detail {

@@ -31,6 +31,15 @@ template <class T, int D>
   return detail::LatticeCells<D>(reference, spacing).order;
 }
 
+/// The axes of that order, the slowest first: those of a whole body, for `BondSettings::axes` of its parts. Throws as
+/// `lattice_order` does.
+template <class T, int D>
+[[nodiscard]] std::array<int, 3> lattice_axes(const VectorView<T, D>& reference, double spacing) {
+  std::array<int, 3> axes{};
+  std::ranges::copy(detail::LatticeCells<D>(reference, spacing).axis, axes.begin());
+  return axes;
+}
+
 /// The bonds of particles on a simple cubic lattice in their reference configuration. All particles
 /// share the offsets r0 and weights w0 (\paper{8}); a block of particles keeps, for each offset, the
 /// runs of neighbours that follow each other, eight bytes each. A particle may lie off its place by
@@ -146,7 +155,9 @@ class LatticeBonds : public Blocks<K, D> {
             "hmps: there are no particles to bond; look at what was to make them (shape, spacing, "
             "removal of weak ones)");
     require_finite(reference, "the reference position");
-    return {reference, settings.spacing};
+    std::array<int, std::size_t{D}> axes{};
+    std::copy_n(settings.axes.begin(), D, axes.begin());
+    return {reference, settings.spacing, axes};
   }
 
   template <class T, class Bonded, class Weight>
@@ -200,7 +211,7 @@ class LatticeBonds : public Blocks<K, D> {
     }
     keep_runs(placed);
     for (std::size_t i = 0; i < n; ++i)
-      this->keep_shape(i, shapes[i].inverse(i), shapes[i].asymmetry, shapes[i].A.trace());
+      this->keep_shape(i, shapes[i].inverse(i, settings.unbonded), shapes[i].asymmetry, shapes[i].A.trace());
     this->share_shapes();
     this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
   }

@@ -29,8 +29,10 @@ struct LatticeCells {
   std::vector<Index> order;              ///< The particles, sorted by cell.
   std::array<int, std::size_t{D}> axis;  ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.
 
+  /// With rows and planes along `axes`, the slowest first; all zero: along those that suit the particles best.
   template <class T>
-  LatticeCells(const VectorView<T, D>& reference, double spacing) : cell(reference.size()), order(reference.size()) {
+  LatticeCells(const VectorView<T, D>& reference, double spacing, const std::array<int, std::size_t{D}>& axes = {})
+      : cell(reference.size()), order(reference.size()), axis(axes) {
     for (std::size_t i = 0; i < cell.size(); ++i)
       for (int c = 0; c < D; ++c) {
         const double place = (double(reference(i, c)) - double(reference(0, c))) / spacing;
@@ -46,7 +48,8 @@ struct LatticeCells {
         cell[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(nearest);
       }
     std::iota(order.begin(), order.end(), Index{0});
-    choose_axes();
+    if (axis == std::array<int, std::size_t{D}>{}) choose_axes();
+    require_axes();
     std::sort(order.begin(), order.end(), [this](Index a, Index b) { return key(cell[a]) < key(cell[b]); });
     for (std::size_t s = 1; s < order.size(); ++s)
       if (cell[order[s]] == cell[order[s - 1]])
@@ -63,6 +66,11 @@ struct LatticeCells {
   }
 
  private:
+  void require_axes() const {
+    for (int d = 0; d < D; ++d)
+      require(std::count(axis.begin(), axis.end(), d) == 1, "hmps: the axes of a lattice are to be each of 0 to ",
+              D - 1, " once, but axis ", d, " is not; take those that lattice_axes returns");
+  }
   /// What to do about particles that are not on the lattice of `spacing`.
   template <class T>
   [[nodiscard]] static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {

@@ -29,8 +29,9 @@ struct ShapeTensor {
   }
 
   /// A^-1. Throws `InputError` that names `particle` if its bonds do not span space: without them
-  /// no deformation gradient exists (\paper{11}).
-  [[nodiscard]] Matrix<double, D> inverse(std::size_t particle) const {
+  /// no deformation gradient exists (\paper{11}). Zero, which makes F = 1, if it has none and may be `unbonded`.
+  [[nodiscard]] Matrix<double, D> inverse(std::size_t particle, bool unbonded = false) const {
+    if (unbonded && neighbours == 0) return A;
     const double mean = A.trace() / D;
     double volume = 1;
     for (int d = 0; d < D; ++d) volume *= mean;

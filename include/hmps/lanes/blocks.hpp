@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,13 @@ class Blocks : public detail::Anchored {
   [[nodiscard]] K shape_trace(std::size_t particle) const {
     return K(1) / shape_(inverse_trace, shape_slot(slot_of_[particle]));
   }
+
+  /// Displacements are rounded to `K` after that of one particle was subtracted, in the middle of the order of the
+  /// sweeps: `particle(size() / 2)`. From now on `common` (m) is subtracted instead, so that parts of a body, each on a
+  /// machine of its own, round as the whole does.
+  void subtract_displacement(const Vector<double, D>& common) { common_ = common; }
+  /// What `subtract_displacement` was given, if it was called.
+  [[nodiscard]] const std::optional<Vector<double, D>>& subtracted_displacement() const { return common_; }
 
   /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}). `LatticeBonds` takes those
   /// of the full lattice, `BondList` those of the particle with the largest sum of weights.
@@ -121,7 +129,7 @@ class Blocks : public detail::Anchored {
     std::iota(shape_block_.begin(), shape_block_.end(), Index{0});
   }
 
-  /// Stores the neighbourhood sums of `particle`: A^-1, sum w r0 and tr A.
+  /// Stores the neighbourhood sums of `particle`: A^-1, sum w r0 and tr A; zero without bonds.
   void keep_shape(std::size_t particle, const Matrix<double, D>& shape_inverse, const Vector<double, D>& asymmetric_sum,
                   double trace) {
     const std::size_t slot = slot_of_[particle];
@@ -129,7 +137,7 @@ class Blocks : public detail::Anchored {
       shape_(asymmetry + static_cast<std::size_t>(c), slot) = static_cast<K>(asymmetric_sum[c]);
       for (int r = 0; r <= c; ++r) shape_(symmetric(r, c), slot) = static_cast<K>(shape_inverse(r, c));
     }
-    shape_(inverse_trace, slot) = static_cast<K>(1.0 / trace);
+    shape_(inverse_trace, slot) = trace > 0 ? static_cast<K>(1.0 / trace) : K(0);
   }
   /// Call this once after the last `keep_shape`. Blocks whose particles all have the same neighbourhood, such as those
   /// inside a lattice or along its faces, then share one copy.
@@ -180,6 +188,7 @@ class Blocks : public detail::Anchored {
   detail::SlotArrays<double, std::size_t{D}> reference_;
   Shapes shape_;
   std::vector<Index> shape_block_;  ///< Index into shape_ of the lanes of each block.
+  std::optional<Vector<double, D>> common_;
   double standard_density_ = 0;
   double standard_lambda_ = 0;
 };

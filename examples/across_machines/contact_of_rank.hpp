@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <hmps/contact/contact.hpp>
+#include <hmps/core/view.hpp>
+
+#include "meeting.hpp"
+#include "messages.hpp"
+#include "partition.hpp"
+
+namespace across_machines {
+
+using Vector = hmps::Vector<double, 3>;
+using Gradient = hmps::Matrix<float, 3>;
+using Contact = hmps::MetaballContact<double, 3, hmps::SmoothMetaball>;
+inline constexpr const char* body_name[] = {"plate", "block"};
+inline const hmps::ContactSettings contact_settings{
+    .spacing = l0, .density = rho, .friction = mu, .stiffness = hmps::PenaltyStiffness::ratio(0.05)};
+
+/// An upper bound of the largest singular value of F (Wolkowicz and Styan 1980).
+[[nodiscard]] inline double stretch_of(const Gradient& F) {
+  const hmps::Matrix<double, 3> wide = F.cast<double>(), C = wide.transpose() * wide;
+  const double mean = C.trace() / 3;
+  return std::sqrt(mean + std::sqrt(2 * std::max(0., C.squaredNorm() / 3 - mean * mean)));
+}
+
+/// Declares both bodies, of which `surface` are the particles, numbered as `number(k)` for the k-th of them.
+template <class Slave, class Number, class Held>
+void declare(Contact& contact, const std::vector<SurfaceParticle>& surface, Slave&& slave, Number&& number,
+             Held&& held) {
+  std::array<std::vector<Index>, 2> slaves, masters;
+  for (std::size_t k = 0; k < surface.size(); ++k) {
+    masters[static_cast<std::size_t>(surface[k].body)].push_back(number(k));
+    if (slave(k)) slaves[static_cast<std::size_t>(surface[k].body)].push_back(number(k));
+  }
+  for (std::size_t b = 0; b < 2; ++b) contact.add_organ({body_name[b], slaves[b], masters[b], held});
+  // A part of a surface may have no slave of one body.
+  contact.add_pair(0, 1,
+                   {.roles = slaves[1].empty()   ? hmps::Roles::only_first_is_slave
+                             : slaves[0].empty() ? hmps::Roles::only_second_is_slave
+                                                 : hmps::Roles::both});
+}
+
+/// The contact forces on the particles of one rank. Each rank gathers the surfaces that decide about its own forces
+/// (`what_meets`), in the order of the scene, so that all sums are those of one rank. Which these are is found anew by
+/// all ranks together, in a survey, when some surface particle has moved by `margin` or stretched by a twentieth.
+class ContactOfRank {
+ public:
+  static constexpr double margin = 0.25 * l0;  ///< m
+  /// A particle reaches as far as the largest stretch of all times this, so that it may grow until the next survey.
+  static constexpr double growth = 1.1, tolerated_growth = 1.05;
+
+  ContactOfRank(const Scene& scene, const Ranks& ranks, const std::vector<int>& part_of, const Part& part)
+      : scene_(scene), ranks_(ranks), part_of_(part_of), part_(part), surface_(scene.surface()) {
+    const auto size = static_cast<std::size_t>(ranks.size);
+    counts_.resize(size);
+    begins_.resize(size);
+    std::vector<std::vector<Index>> entries(size);
+    for (std::size_t k = 0; k < surface_.size(); ++k)
+      entries[static_cast<std::size_t>(part_of[surface_[k].particle])].push_back(static_cast<Index>(k));
+    for (std::size_t r = 0; r < size; ++r) {
+      counts_[r] = static_cast<int>(3 * entries[r].size());
+      begins_[r] = static_cast<int>(3 * entry_.size());
+      entry_.insert(entry_.end(), entries[r].begin(), entries[r].end());
+    }
+    for (const Index k : entries[static_cast<std::size_t>(ranks.rank)]) own_.push_back(place_of(surface_[k].particle));
+    surveyed_.resize(own_.size());
+  }
+
+  /// How far some own surface particle has moved in m since the latest survey, and the largest of their stretches over
+  /// what was seen then: with the largest of all ranks `due` tells whether a survey has to be.
+  [[nodiscard]] std::array<double, 2> change(const std::vector<Vector>& x, const std::vector<Gradient>& F) const {
+    if (!known_) return {1e300, 1e300};
+    double moved = 0, stretch = 0;
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      moved = std::max(moved, (x[own_[k]] - surveyed_[k]).squaredNorm());
+      stretch = std::max(stretch, stretch_of(F[own_[k]]));
+    }
+    return {std::sqrt(moved), stretch / stretch_};
+  }
+  [[nodiscard]] static bool due(const std::array<double, 2>& change) {
+    return change[0] > margin || change[1] > tolerated_growth;
+  }
+
+  /// To be called by all ranks at once.
+  void survey(const std::vector<Vector>& x, const std::vector<Gradient>& F) {
+    std::array<double, 1> stretch{1};
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      surveyed_[k] = x[own_[k]];
+      stretch[0] = std::max(stretch[0], stretch_of(F[own_[k]]));
+    }
+    largest(ranks_, stretch);
+    stretch_ = stretch[0];
+    known_ = true;
+    ++surveys_;
+    std::vector<Vector> by_rank(surface_.size()), place(surface_.size());
+    MPI_Allgatherv(surveyed_.data(), static_cast<int>(3 * surveyed_.size()), MPI_DOUBLE, by_rank.data(), counts_.data(),
+                   begins_.data(), MPI_DOUBLE, ranks_.comm);
+    for (std::size_t q = 0; q < place.size(); ++q) place[entry_[q]] = by_rank[q];
+    const double reach = radius * stretch_ * growth + 2 * margin;
+    const std::vector<Gathered> gathered = what_meets(surface_, place, reach, [&](std::size_t k) { return mine(k); });
+    keep(gathered);
+  }
+
+  /// Brings positions `x`, velocities `v` and deformation gradients `F` of what was gathered here. To be called by all
+  /// ranks at once.
+  void gather(const std::vector<Vector>& x, const std::vector<Vector>& v, const std::vector<Gradient>& F) {
+    for (const auto& [from, to] : copies_) {
+      x_[to] = x[from];
+      v_[to] = v[from];
+      F_[to] = F[from];
+    }
+    constexpr std::size_t vector = sizeof(Vector), all = 2 * vector + sizeof(Gradient);
+    exchange(
+        ranks_, peers_, all, 0,
+        [&](Index i, char* bytes, bool) {
+          std::memcpy(bytes, x[i].data(), vector);
+          std::memcpy(bytes + vector, v[i].data(), vector);
+          std::memcpy(bytes + 2 * vector, F[i].data(), sizeof(Gradient));
+        },
+        [&](Index i, const char* bytes, bool) {
+          std::memcpy(x_[i].data(), bytes, vector);
+          std::memcpy(v_[i].data(), bytes + vector, vector);
+          std::memcpy(F_[i].data(), bytes + 2 * vector, sizeof(Gradient));
+        });
+  }
+
+  /// Adds the contact force densities on the own particles to `f`. Throws `StateError` where a wall has lost a
+  /// particle.
+  void operator()(double t, double dt, std::vector<Vector>& f) {
+    if (!contact_) return;
+    std::fill(f_.begin(), f_.end(), Vector::Zero());
+    const auto report = (*contact_)(hmps::vectors(std::as_const(x_)), hmps::vectors(std::as_const(v_)),
+                                    hmps::matrices(std::as_const(F_)), dt, hmps::vectors(f_));
+    late_ = late_before_ + report.late;
+    if (report.deep > 0)
+      throw hmps::StateError(hmps::message("hmps: at t = ", t, " s, the wall of '", body_name[report.lost_in],
+                                           "' has lost particle ", particle_[report.lost], " of the scene, ",
+                                           report.lost_depth, " m deep in it or through; try a smaller time step"));
+    touching_ = 0;
+    for (const auto& [from, to] : copies_) {
+      f[from] += f_[to];
+      touching_ += f_[to].isZero() ? 0 : 1;
+    }
+  }
+
+  [[nodiscard]] std::size_t touching() const { return touching_; }  ///< own particles with a force, in the latest call
+  [[nodiscard]] std::size_t gathered() const { return x_.size(); }
+  [[nodiscard]] std::size_t late() const { return late_; }  ///< see `ContactReport::late`
+  [[nodiscard]] std::size_t surveys() const { return surveys_; }
+
+ private:
+  static constexpr double radius = hmps::SmoothMetaball::radius * l0;
+
+  [[nodiscard]] bool mine(std::size_t entry) const { return part_of_[surface_[entry].particle] == ranks_.rank; }
+  [[nodiscard]] Index place_of(Index particle) const {
+    const auto own = part_.particles.begin() + static_cast<std::ptrdiff_t>(part_.own);
+    return static_cast<Index>(std::lower_bound(part_.particles.begin(), own, particle) - part_.particles.begin());
+  }
+
+  /// Makes the arrays and the contact of what was gathered.
+  void keep(const std::vector<Gathered>& gathered) {
+    std::vector<SurfaceParticle> surface;
+    std::vector<Wanted> wanted;
+    particle_.clear();
+    copies_.clear();
+    for (std::size_t k = 0; k < gathered.size(); ++k) {
+      const Index i = surface_[gathered[k].entry].particle, here = static_cast<Index>(k);
+      surface.push_back(surface_[gathered[k].entry]);
+      particle_.push_back(i);
+      if (mine(gathered[k].entry))
+        copies_.emplace_back(place_of(i), here);
+      else
+        wanted.push_back({i, here});
+    }
+    peers_ = introduce(
+        ranks_, wanted, {}, [&](Index i) { return part_of_[i]; }, [&](Index i) { return place_of(i); });
+    x_.resize(gathered.size());
+    v_.resize(gathered.size());
+    F_.resize(gathered.size());
+    f_.resize(gathered.size());
+    contact_.reset();
+    late_before_ = late_;
+    touching_ = 0;
+    // A rank without contact has none to compute.
+    if (std::none_of(gathered.begin(), gathered.end(), [](const Gathered& g) { return g.slave; })) return;
+    contact_.emplace(contact_settings);
+    declare(
+        *contact_, surface, [&](std::size_t k) { return gathered[k].slave; },
+        [](std::size_t k) { return static_cast<Index>(k); }, [&](Index k) { return scene_.prescribed(particle_[k]); });
+  }
+
+  const Scene& scene_;
+  const Ranks& ranks_;
+  const std::vector<int>& part_of_;
+  const Part& part_;
+  std::vector<SurfaceParticle> surface_;
+  std::vector<int> counts_, begins_;  // of numbers, per rank
+  std::vector<Index> entry_;          // of the surface, rank by rank
+  std::vector<Index> own_;            // places of own surface particles
+  std::vector<Vector> surveyed_;      // their positions in the latest survey
+  double stretch_ = 1;                // the largest then
+  bool known_ = false;
+  // What was gathered.
+  std::vector<Index> particle_;                  // numbers in the scene
+  std::vector<std::pair<Index, Index>> copies_;  // own ones: place among the own particles, and here
+  std::vector<Peer> peers_;
+  std::vector<Vector> x_, v_, f_;
+  std::vector<Gradient> F_;
+  std::optional<Contact> contact_;
+  std::size_t touching_ = 0, late_ = 0, late_before_ = 0, surveys_ = 0;
+};
+
+}  // namespace across_machines

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <hmps/search/grid.hpp>
+
+#include "scene.hpp"
+
+namespace across_machines {
+
+/// A surface particle that a rank has to know to compute the contact forces on its own ones.
+struct Gathered {
+  Index entry;  ///< in the list of all surface particles
+  bool slave;   ///< to be a slave here; all are masters
+};
+
+/// How many times a contact force may reach from body to body: a slave is pushed by masters (1), a master by slaves
+/// that know their other masters (2), and friction needs the load of each of these, which depends on their slaves (3)
+/// and what these touch besides (4).
+inline constexpr int hops = 4;
+
+/// Of the surface particles at `place` (m, all of the scene), those that decide about the forces on the ones for which
+/// `own(entry)` holds, if particles of different bodies meet within `reach` (m): ascending. Own ones that meet nothing
+/// are not among them. Those that are reached last are no slaves here, since some of their masters may be missing.
+template <class Own>
+[[nodiscard]] std::vector<Gathered> what_meets(const std::vector<SurfaceParticle>& surface,
+                                               const std::vector<hmps::Vector<double, 3>>& place, double reach,
+                                               Own&& own) {
+  using Point = hmps::Vector<double, 3>;
+  Point low = Point::Constant(1e300), high = -low;
+  for (std::size_t k = 0; k < place.size(); ++k)
+    if (own(k)) {
+      low = low.cwiseMin(place[k]);
+      high = high.cwiseMax(place[k]);
+    }
+  std::vector<Index> nearby;
+  for (std::size_t k = 0; k < place.size(); ++k)
+    if ((low - place[k]).cwiseMax(place[k] - high).maxCoeff() <= hops * reach) nearby.push_back(static_cast<Index>(k));
+
+  hmps::Grid<double, 3> grid;
+  grid.build(nearby.size(), reach, [&](std::size_t q) { return place[nearby[q]]; });
+  constexpr std::uint8_t unknown = 255;
+  std::vector<std::uint8_t> hop(nearby.size(), unknown);
+  std::vector<Index> front, next;
+  const auto for_each_partner = [&](Index q, auto&& visit) {
+    grid.visit(place[nearby[q]], reach, [&](Index other, double) {
+      if (surface[nearby[other]].body != surface[nearby[q]].body) visit(other);
+    });
+  };
+  for (std::size_t q = 0; q < nearby.size(); ++q) {
+    if (!own(nearby[q])) continue;
+    bool meets = false;
+    for_each_partner(static_cast<Index>(q), [&](Index) { meets = true; });
+    if (!meets) continue;
+    hop[q] = 0;
+    front.push_back(static_cast<Index>(q));
+  }
+  for (std::uint8_t h = 1; h <= hops; ++h) {
+    next.clear();
+    for (const Index q : front)
+      for_each_partner(q, [&](Index other) {
+        if (hop[other] != unknown) return;
+        hop[other] = h;
+        next.push_back(other);
+      });
+    std::swap(front, next);
+  }
+  std::vector<Gathered> found;
+  for (std::size_t q = 0; q < nearby.size(); ++q)
+    if (hop[q] != unknown) found.push_back({nearby[q], surface[nearby[q]].slave && hop[q] < hops});
+  return found;
+}
+
+}  // namespace across_machines

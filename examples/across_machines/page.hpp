@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "count.hpp"
+
+namespace across_machines {
+
+/// What was measured on one machine, an AMD EPYC with AVX-512.
+struct Measured {
+  double force = 20, contact = 7;       ///< million particles/s of one core
+  double latency = 9, bandwidth = 3.8;  ///< us and GB/s between two ranks over TCP
+  std::string source =
+      "Of these, the force is\nthat of docs/measured/benchmarks.md, mixed, at 300 thousand to a million particles on a quiet "
+      "machine; "
+      "contact follows from\nits share of the time of 20,000 particles in touch here, on a busy one (0.33 and 0.49 of "
+      "the "
+      "rate of the force in two\nruns; 0.35 is taken); messages are those of `--measure-network` there.";
+};
+
+__attribute__((format(printf, 1, 2))) [[nodiscard]] inline std::string format(const char* pattern, ...) {
+  char text[4000];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof(text), pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+/// Particles in words of three digits.
+[[nodiscard]] inline std::string amount(double n) {
+  return n >= 999.5e3 ? format("%.3g M", n * 1e-6) : n >= 999.5 ? format("%.3g k", n * 1e-3) : format("%.0f", n);
+}
+
+inline const char* const introduction = R"(# Across machines
+
+`examples/across_machines` runs two bodies, control regions and contact on any number of MPI ranks. It is made of the
+public pieces of the library; no header of hmps knows MPI or the graph partitioner. This page says how, what it costs in
+messages, and when it pays. `across_machines_count --counts docs/across_machines.txt --out docs/across_machines.md` writes
+it; the counts are in the text file, and are counted anew where that is missing (170 s of one
+core, 0.75 GB).
+
+    sudo apt-get install libopenmpi-dev libmetis-dev
+    cmake --preset release && cmake --build --preset release --target across_machines across_machines_count
+    mpirun -n 4 build/release/examples/across_machines/across_machines --particles 75000 --steps 2000 --out run.state
+    mpirun -n 7 build/release/examples/across_machines/across_machines --particles 75000 --steps 4000 --out run.state --resume
+
+Where MPI or METIS is missing, CMake leaves the example out and says so. `tests/run` does not install them; with them its
+test `examples: across_machines` runs.
+
+## How a run is divided
+
+- **Parts**: METIS divides the graph of bonds such that parts have about equally many particles and few bonds between
+  them. Rank 0 does that, and all ranks learn which particle is whose (`partition.hpp`).
+- **Two layers**: a rank also holds the neighbours of its particles and the neighbours of these. Its `LatticeBonds` bonds
+  its own particles and the first layer; `BondSettings::unbonded` lets the second layer have no bonds. `restrict_to`
+  evaluates the force on its own particles alone. After each drift, positions of both layers and velocities of the
+  first come from the ranks that own them (`messages.hpp`). `mean_dilatation` would need two more layers.
+- **Contact**: each rank gathers the surface particles that decide about the forces on its own ones: what these can meet,
+  what that can meet, and so on four times, since friction depends on the load of both sides (`meeting.hpp`). It
+  evaluates contact among what it gathered and keeps the forces on its own particles. All ranks together survey who can
+  meet whom when a surface particle has moved by a quarter of a spacing or has stretched by a twentieth.
+- **Checkpoints**: rank 0 collects the state in the order of the scene and replaces the file in one go. Any number of ranks
+  can resume it.
+
+## The same bits on any number of ranks
+
+A run gives the bits of a program on one machine without messages (`--plain`), on any number of ranks. These make it so:
+
+- the sums over bonds of a `LatticeBonds` follow the offsets of the lattice. Their order depends on the axes of the
+  sweeps, which suit the particles at hand; `BondSettings::axes` gives every part those of the whole
+  (`lattice_axes`);
+- the force rounds displacements to float after it has subtracted that of one particle;
+  `Blocks::subtract_displacement` gives every part that of the whole. Its owner sends it to all before each step;
+- the sums of contact follow the numbers of the particles, and what is gathered keeps the order of the scene. Slaves at the rim
+  of what was gathered are left out there, so that no row lacks a master.
+
+Not so for a `BondList`, whose order of neighbours follows from all particles together. And should contact report a
+touch seen late (`ContactReport::late`), bits may depend on the number of ranks; the program says so.
+
+## What ends a run
+
+Each ends with a message that names the rank, and leaves the latest checkpoint whole: a rank that dies (mpirun names its
+signal and ends the others), a state that is not finite, a particle lost in a wall, a part without particles, a
+checkpoint that is damaged or of another run. A rank without contact is none of them: it goes on without.
+
+Limits: every rank makes the whole scene once, at the start, and rank 0 the graph of all bonds, so that the memory of one
+machine limits the size. A division is made once, for the start of the run. Parts are balanced by particles, not by
+contact. Messages are not hidden behind work, and there is one thread a rank.
+)";
+
+/// A table of all sizes and numbers of parts: `cell(count)` is the text of each.
+template <class Cell>
+[[nodiscard]] std::string table(const std::vector<std::vector<Count>>& all, Cell&& cell) {
+  std::size_t longest = 0;
+  for (const auto& row : all) longest = std::max(longest, row.size());
+  std::string text = "| particles |", line = "|---|";
+  for (std::size_t p = 0; p < longest; ++p) {
+    text += format(" %d |", 1 << p);
+    line += "---|";
+  }
+  text += "\n" + line + "\n";
+  for (const auto& row : all) {
+    text += "| " + amount(static_cast<double>(row[0].particles)) + " |";
+    for (std::size_t p = 0; p < longest; ++p) text += p < row.size() ? " " + cell(row[p], row[0]) + " |" : " |";
+    text += "\n";
+  }
+  return text;
+}
+
+[[nodiscard]] inline std::string kilobytes(double bytes) {
+  return bytes >= 999.5e3 ? format("%.3g M", bytes * 1e-6) : format("%.3g k", bytes * 1e-3);
+}
+
+[[nodiscard]] inline std::string counted(const std::vector<std::vector<Count>>& all) {
+  std::string text = R"(
+## Counted
+
+Parts of the scene at its start, the block lying on the plate. Columns are numbers of parts. Read along a row for strong
+scaling; each row has four times the particles of the one below it, so that two columns to the right and one row up is
+weak scaling. Up to 400 thousand particles METIS divides the graph of the particles, beyond that the graph of cubes with 2,
+and beyond three million with 4 particles along each side. Cubes that touch across the contact are joined in the graph,
+three times as strongly as by bonds. Without that METIS cuts between the two bodies where it can: 1.25 million particles
+in 4, 8 and 16 parts then received 6.39, 9.5 and 12.9 MB in all, but 77 thousand in 2, 4, 8 and 16 parts only 0.52, 1.13,
+2.02 and 3.17 MB, less than below.
+
+Bytes that the part with most of them receives in each step for its two layers (48 a particle of the first, 24 of the
+second):
+
+)";
+  text += table(all, [](const Count& c, const Count&) { return c.parts == 1 ? "0" : kilobytes(c.bytes); });
+  text += "\nThe same for contact (84 a particle):\n\n";
+  text += table(all, [](const Count& c, const Count&) { return c.parts == 1 ? "0" : kilobytes(c.contact); });
+  text += "\nReceived by all parts together:\n\n";
+  text += table(all, [](const Count& c, const Count&) { return c.parts == 1 ? "0" : kilobytes(c.all_bytes); });
+  text += "\nMost parts that one part hears from:\n\n";
+  text += table(all, [](const Count& c, const Count&) { return format("%zu", c.peers); });
+  text += "\nBalance: particles of the largest part over the mean:\n\n";
+  text += table(all, [](const Count& c, const Count&) { return format("%.2f", c.balance()); });
+  text += "\nMost surface particles that one part gathers for contact, its own included:\n\n";
+  text += table(all, [](const Count& c, const Count&) { return amount(static_cast<double>(c.gathered)); });
+  text += "\nParts without contact:\n\n";
+  text += table(all, [](const Count& c, const Count&) { return format("%zu", c.without_contact); });
+  return text;
+}
+
+/// Up to how many particles two machines take more than two thirds of the time of one, between the sizes counted.
+[[nodiscard]] inline double stay_below(const std::vector<std::vector<Count>>& all, const Rates& rates,
+                                       const Network& network, std::size_t doublings, double gain) {
+  double above = std::numeric_limits<double>::infinity(), gain_above = 0;
+  for (const auto& row : all) {  // the largest first
+    if (row.size() <= doublings) break;
+    const double n = static_cast<double>(row[0].particles),
+                 own = time_of_step(row[0], rates, network) / time_of_step(row[doublings], rates, network);
+    if (own < gain) {
+      if (!std::isfinite(above)) return above;
+      return std::exp(std::log(n) + (std::log(above) - std::log(n)) * (gain - own) / (gain_above - own));
+    }
+    above = n;
+    gain_above = own;
+  }
+  return 0;
+}
+
+[[nodiscard]] inline std::string modelled(const std::vector<std::vector<Count>>& all, const Measured& m) {
+  const std::vector<Network> networks{{"TCP between two ranks here, measured", m.latency * 1e-6, m.bandwidth * 1e9},
+                                      {"Ethernet of 1 Gb/s, 50 us, assumed", 50e-6, 0.11e9},
+                                      {"Ethernet of 25 Gb/s, 15 us, assumed", 15e-6, 2.8e9},
+                                      {"InfiniBand of 200 Gb/s, 2 us, assumed", 2e-6, 22e9}};
+  std::string text = "\n## Modelled\n\n";
+  text += format(
+      "One core does %.3g million particles/s in all but contact and %.3g million gathered particles/s in contact; a\n"
+      "message between two ranks over TCP takes %.3g us, and %.3g GB/s. %s\n\n"
+      "A step takes as long as its slowest part, each on a machine of its own:\n\n"
+      "    (own + first layer / 2) / force rate / cores + gathered / contact rate / cores\n"
+      "      + (2 + 3 log2 parts) latency + bytes / bandwidth\n\n"
+      "Cores are taken to share the work of a machine evenly, which the example, with one thread a rank, leaves to\n"
+      "several ranks on each machine. Surveys, 3 %% of a step where they were measured, are left out. Networks other "
+      "than\n"
+      "that measured are assumed. This is a model: nothing was run on more than one machine.\n",
+      m.force, m.contact, m.latency, m.bandwidth, m.source.c_str());
+  for (const double cores : {2., 32.}) {
+    const Rates rates{m.force * 1e6, m.contact * 1e6, cores};
+    const Network& network = cores > 2 ? networks[2] : networks[0];
+    text += format("\nTimes as fast as one machine, %.0f cores each, %s:\n\n", cores, network.name);
+    text += table(all, [&](const Count& c, const Count& one) {
+      return format("%.3g", time_of_step(one, rates, network) / time_of_step(c, rates, network));
+    });
+  }
+  text +=
+      "\nHow many particles a scene needs so that two machines are 1.5 times as fast as one, and 16 machines 8 "
+      "times:\n\n";
+  text +=
+      "| network | 2 cores: two machines | 16 machines | 32 cores: two machines | 16 machines "
+      "|\n|---|---|---|---|---|\n";
+  for (const Network& network : networks) {
+    text += format("| %s |", network.name);
+    for (const double cores : {2., 32.})
+      for (const auto& [doublings, gain] : {std::pair<std::size_t, double>{1, 1.5}, {4, 8.}}) {
+        const double n = stay_below(all, {m.force * 1e6, m.contact * 1e6, cores}, network, doublings, gain);
+        text += n == 0 ? " fewer than counted |" : std::isinf(n) ? " more than counted |" : " " + amount(n) + " |";
+      }
+    text += "\n";
+  }
+  text += "\nBelow the numbers for two machines, stay on one.\n";
+  return text;
+}
+
+[[nodiscard]] inline std::string page_of(const std::vector<std::vector<Count>>& all, const Measured& measured) {
+  return introduction + counted(all) + modelled(all, measured);
+}
+
+}  // namespace across_machines

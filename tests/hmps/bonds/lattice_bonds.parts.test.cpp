@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Parts of a body, each with the bonds of its own particles and two layers borrowed from its neighbours, give the bits
+// of the whole: what several machines rely on.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/viscous.hpp"
+#include "reference/scenes.hpp"
+
+namespace {
+
+using Vector = hmps::Vector<double, 3>;
+using Bonds = hmps::LatticeBonds<float, 3>;
+using State = std::vector<Vector>;
+
+const double l0 = scenes::Scene<3>::spacing;
+
+auto force_of(const Bonds& bonds) {
+  return hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(20e3, 1e6)), hmps::artificial(10e3),
+                              hmps::viscous(1000, 2e-3));
+}
+
+/// A strained body that moves, far from where it was.
+struct Body {
+  State X = scenes::box<3>({11, 6, 5}), x = X, v = X;
+  Bonds bonds{hmps::vectors(X), {.spacing = l0}};
+  State f = State(X.size(), Vector::Zero());
+
+  Body() {
+    scenes::Random random(7);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        x[i][c] = 0.3 + 1.05 * X[i][c] + random(-0.05, 0.05) * l0;
+        v[i][c] = random(-1, 1);
+      }
+    force_of(bonds)(hmps::vectors(std::as_const(x)), hmps::vectors(std::as_const(v)), hmps::vectors(f));
+  }
+};
+
+/// How many of the particles whose `part_of` is `part` get a force of other bits than in the whole, if the part knows
+/// the `axes` and the displacement that the whole subtracts, or not.
+std::size_t differences(const Body& body, const std::vector<int>& part_of, int part, bool axes, bool displacement) {
+  const std::size_t n = body.X.size();
+  std::vector<int> layer(n, 3);
+  for (std::size_t i = 0; i < n; ++i)
+    if (part_of[i] == part) layer[i] = 0;
+  for (const int next : {1, 2})
+    for (std::size_t i = 0; i < n; ++i)
+      if (layer[i] == next - 1)
+        body.bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { layer[j] = std::min(layer[j], next); });
+  std::vector<std::size_t> particles;
+  for (std::size_t i = 0; i < n; ++i)
+    if (layer[i] <= 2) particles.push_back(i);
+  State X, x, v;
+  for (const std::size_t i : particles) {
+    X.push_back(body.X[i]);
+    x.push_back(body.x[i]);
+    v.push_back(layer[i] <= 1 ? body.v[i] : Vector::Zero());  // those of the second layer count for nothing
+  }
+  hmps::BondSettings settings{.spacing = l0, .unbonded = true};
+  if (axes) settings.axes = hmps::lattice_axes(hmps::vectors(body.X), l0);
+  Bonds bonds(hmps::vectors(X), settings, [&](std::size_t i, std::size_t) { return layer[particles[i]] <= 1; });
+  const std::size_t middle = body.bonds.particle(n / 2);
+  if (displacement) bonds.subtract_displacement(body.x[middle] - body.X[middle]);
+  State f(X.size(), Vector::Zero());
+  auto force = force_of(bonds);
+  force.restrict_to([&](std::size_t i) { return layer[particles[i]] == 0; });
+  force(hmps::vectors(x), hmps::vectors(v), hmps::vectors(f));
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (layer[particles[i]] == 0 && f[i] != body.f[particles[i]]) ++found;
+  return found;
+}
+
+TEST(PartsOfALattice, HaveTheBitsOfTheWhole) {
+  const Body body;
+  scenes::Random random(3);
+  std::vector<int> slabs, scattered;
+  for (const Vector& X : body.X) {
+    slabs.push_back(static_cast<int>((X[0] - body.X[0][0]) / l0 + 0.5) / 4);
+    scattered.push_back(random() < 0.5 ? 0 : 1);
+  }
+  for (const int part : {0, 1, 2}) EXPECT_EQ(differences(body, slabs, part, true, true), 0u) << "slab " << part;
+  for (const int part : {0, 1}) EXPECT_EQ(differences(body, scattered, part, true, true), 0u) << "scattered " << part;
+}
+
+// Without either of what they are told they round in another way: this is what `axes` and `subtract_displacement` are
+// for, and shows that the comparison above can fail.
+TEST(PartsOfALattice, RoundInAnotherWayIfTheyChooseForThemselves) {
+  const Body body;
+  std::vector<int> slabs;
+  for (const Vector& X : body.X) slabs.push_back(static_cast<int>((X[0] - body.X[0][0]) / l0 + 0.5) / 4);
+  EXPECT_GT(differences(body, slabs, 0, false, true), 0u);
+  EXPECT_GT(differences(body, slabs, 2, true, false), 0u);
+}
+
+TEST(PartsOfALattice, MayHaveParticlesWithoutBondsOnlyIfTheySaySo) {
+  const State X = scenes::box<3>({4, 4, 4});
+  const auto bonded = [](std::size_t i, std::size_t) { return i != 5; };
+  EXPECT_THROW(Bonds(hmps::vectors(X), {.spacing = l0}, bonded), hmps::InputError);
+  const Bonds bonds(hmps::vectors(X), {.spacing = l0, .unbonded = true}, bonded);
+  EXPECT_TRUE(bonds.shape_inverse(5).isZero());
+}
+
+TEST(PartsOfALattice, RefuseAxesThatAreNone) {
+  const State X = scenes::box<3>({4, 4, 4});
+  EXPECT_THROW(Bonds(hmps::vectors(X), {.spacing = l0, .axes = {0, 1, 1}}), hmps::InputError);
+  EXPECT_NO_THROW(Bonds(hmps::vectors(X), {.spacing = l0, .axes = {2, 0, 1}}));
+}
+
+}  // namespace
