@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <tuple>
@@ -25,7 +26,7 @@ namespace hmps::inline HMPS_ABI {
 /// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the
 /// deformation gradient and what follows from it, one for the sum in `Coupling`. A term that is not
 /// named is not computed; where no term couples, the first sweep is left out, where none damps, no
-/// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond.
+/// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond, `mean_dilatation<2>` four.
 ///
 /// Refers to the bonds, which must outlive it and may be moved (in a `std::vector` of bodies, say), and keeps scratch
 /// memory, but no state: one object serves any number of states in turn (not at the same time). `restrict_to` leaves
@@ -44,6 +45,9 @@ class InternalForce {
                 "hmps: a term of internal_force needs couple(particles, coupling), damping(bonds) or "
                 "pressure(particles, theta); see ForceTerm");
   static constexpr bool dilates = (DilatationTerm<Terms, K, D> || ...);
+  static constexpr int means = std::max({0, detail::means_of<Terms, K, D>()...});
+  static_assert(((!DilatationTerm<Terms, K, D> || detail::means_of<Terms, K, D>() == means) && ...),
+                "hmps: all terms of the mean dilatation in a force take the mean as often, once or twice");
   static constexpr bool couples = dilates || (CouplingTerm<Terms, K, D> || ...);
   static constexpr bool damps = (DampingTerm<Terms, K, D> || ...);
 
@@ -80,8 +84,7 @@ class InternalForce {
     with_neighbours(moving);
     coupled_ = blocks_of(moving);
     if constexpr (dilates) {  // their pressure is that of neighbours, and so are the dilatations that make it
-      with_neighbours(moving);
-      with_neighbours(moving);
+      for (int ring = 0; ring < 2 * means; ++ring) with_neighbours(moving);
       dilated_ = blocks_of(moving);
     }
     restricted_ = true;
@@ -159,8 +162,13 @@ class InternalForce {
       if constexpr (damps) detail::stage(*bonds_, block, v, velocity_);
     });
     if constexpr (dilates) {
+      const auto average = [&](std::size_t block) {
+        detail::average_over_neighbourhood(*bonds_, block, scales_, dilatation_, pressure_);
+      };
       sweep(dilated_, execute, [&](std::size_t block) { dilate(block); });
+      if constexpr (means == 2) sweep(dilated_, execute, average);
       sweep(dilated_, execute, [&](std::size_t block) { press(block); });
+      if constexpr (means == 2) sweep(dilated_, execute, average);
     }
     if constexpr (couples) sweep(coupled_, execute, [&](std::size_t block) { couple(block); });
     sweep(summed_, execute, [&](std::size_t block) { sum(block, take); });
@@ -194,16 +202,6 @@ class InternalForce {
   void add_damping(const Term& term, double& sum) const {
     if constexpr (DampingTerm<Term, K, D>) sum += term.damping(*bonds_);
   }
-  template <class Term>
-  HMPS_INLINE static void add_pressure(const Term& term, const BlockOfParticles<K, D>& particles, const T& theta,
-                                       T& pressure) {
-    if constexpr (DilatationTerm<Term, K, D>) pressure += term.pressure(particles, theta);
-  }
-  template <class Term>
-  HMPS_INLINE static void add_coupling(const Term& term, const BlockOfParticles<K, D>& particles,
-                                       Coupling<K, D>& coupling) {
-    if constexpr (CouplingTerm<Term, K, D>) term.couple(particles, coupling);
-  }
 
   /// First of the sweeps that the mean dilatation needs: F, kept where the coupling will be, and d (J - 1).
   void dilate(std::size_t block) {
@@ -217,12 +215,14 @@ class InternalForce {
   void press(std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
-    const T theta = d * detail::sum_over_neighbourhood(*bonds_, block, dilatation_);
+    // Taken twice, the mean lies where that of the pressure will.
+    auto &dilatation = means == 2 ? pressure_ : dilatation_, &kept = means == 2 ? dilatation_ : pressure_;
+    const T theta = d * detail::sum_over_neighbourhood(*bonds_, block, dilatation);
     const Matrix<T, D> inverse = bonds_->shape_inverse_lanes(block), F = kept_gradient(block);
     const BlockOfParticles<K, D> particles(*bonds_, block, F, inverse);
     T pressure(0);
-    std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
-    pressure_.keep(0, slot, d * pressure);
+    std::apply([&](const auto&... term) { (detail::add_pressure(term, particles, theta, pressure), ...); }, terms_);
+    kept.keep(0, slot, d * pressure);
   }
   [[nodiscard]] Matrix<T, D> kept_gradient(std::size_t block) const {
     Matrix<T, D> F;
@@ -245,7 +245,7 @@ class InternalForce {
     Coupling<K, D> coupling;
     for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) = T(0);
     coupling.c = T(0);
-    std::apply([&](const auto&... term) { (add_coupling(term, particles, coupling), ...); }, terms_);
+    std::apply([&](const auto&... term) { (detail::add_coupling(term, particles, coupling), ...); }, terms_);
     if constexpr (dilates) {
       const T pressure = scales_.lanes(0, slot) * detail::sum_over_neighbourhood(*bonds_, block, pressure_);
       const Matrix<T, D> push = product(cofactor(F), inverse);

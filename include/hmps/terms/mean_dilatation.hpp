@@ -35,8 +35,14 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// The law of the particles keeps a bulk modulus of its own, which resists changes of J from one particle to the next;
 /// those of law and mean add up in what is larger than a neighbourhood. `split_bulk_modulus` shares one out.
-template <class Bulk>
+///
+/// With two `means`, the mean is taken twice: theta_i = d_i sum_k d_k theta'_k, where theta' is the mean above, and the
+/// pressure likewise. In walls of two layers that lie on no lattice, the means of both sides differ by a fifth of what
+/// bending changes them by, and stiff volumes still lock; taken twice, by a thirtieth (`thin_wall_stabiliser`).
+template <class Bulk, int Means = 1>
 struct MeanDilatation {
+  static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
+  static constexpr int means = Means;
   Bulk bulk;
 
   /// U'(theta) in Pa.
@@ -72,9 +78,10 @@ template <class P>
 
 /// The term of `internal_force` that resists the mean dilatation with the bulk modulus `bulk` in Pa: a number, or a
 /// callable that gives that of the particles of a block, `[&](const auto& at) { return at(per_particle); }`. Throws
-/// `InputError` for a number that is negative or not finite.
-template <class Bulk>
-[[nodiscard]] MeanDilatation<Bulk> mean_dilatation(Bulk bulk) {
+/// `InputError` for a number that is negative or not finite. `mean_dilatation<2>(bulk)` takes the mean twice, which
+/// costs two sweeps of one number per bond more; all terms of the mean dilatation in a force take it as often.
+template <int Means = 1, class Bulk>
+[[nodiscard]] MeanDilatation<Bulk, Means> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)
     require(detail::is_finite(bulk) && bulk >= 0, "hmps: the bulk modulus of mean_dilatation is ", bulk,
             " Pa; it must not be negative");
@@ -93,6 +100,14 @@ template <class B, class K = typename B::Scalar>
     sum += select(bond.weight() > K(0), bond.gather(values)[0], T(0));
   });
   return sum;
+}
+
+/// Keeps in `mean` d times the mean of what `values` holds d times.
+template <class B, class Slots>
+void average_over_neighbourhood(const B& bonds, std::size_t block, const Slots& scales, const Slots& values,
+                                Slots& mean) {
+  const auto d = scales.lanes(0, block * B::width);
+  mean.keep(0, block * B::width, d * (d * sum_over_neighbourhood(bonds, block, values)));
 }
 
 /// The d of `MeanDilatation` for every slot of `bonds`.

@@ -100,7 +100,8 @@ struct Coupling {
 /// | `term.pressure(particles, theta)` | dU/dtheta in Pa, U being an energy of the mean dilatation theta |
 ///
 /// A term that holds views of particles has `term.check(size)` too, which throws `InputError` unless they are views of
-/// `size` particles: `internal_force` asks when it is made. Satisfied by `Elastic`, `Artificial`, `Viscous`,
+/// `size` particles: `internal_force` asks when it is made. One of the mean dilatation may have `means`, 1 or 2: how
+/// often the mean is taken. Satisfied by `Elastic`, `Artificial`, `Viscous`,
 /// `MeanDilatation`, `Record`, and a user's own struct.
 template <class Term, class K, int D>
 concept CouplingTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
@@ -116,5 +117,30 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
 };
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DilatationTerm<Term, K, D>;
+
+namespace detail {
+
+/// How often a term takes the mean of the dilatation: once unless it says otherwise, and never if it takes none.
+template <class Term, class K, int D>
+[[nodiscard]] constexpr int means_of() {
+  if constexpr (!DilatationTerm<Term, K, D>)
+    return 0;
+  else if constexpr (requires { Term::means; })
+    return Term::means;
+  else
+    return 1;
+}
+
+template <class Term, class K, int D>
+HMPS_INLINE void add_pressure(const Term& term, const BlockOfParticles<K, D>& particles, const Lanes<K>& theta,
+                              Lanes<K>& pressure) {
+  if constexpr (DilatationTerm<Term, K, D>) pressure += term.pressure(particles, theta);
+}
+template <class Term, class K, int D>
+HMPS_INLINE void add_coupling(const Term& term, const BlockOfParticles<K, D>& particles, Coupling<K, D>& coupling) {
+  if constexpr (CouplingTerm<Term, K, D>) term.couple(particles, coupling);
+}
+
+}  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI
