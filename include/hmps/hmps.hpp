@@ -113,5 +113,6 @@
 #include "hmps/terms/shear_wave_modulus.hpp"
 #include "hmps/terms/sheet_stabiliser.hpp"
 #include "hmps/terms/term.hpp"
+#include "hmps/terms/thin_wall_stabiliser.hpp"
 #include "hmps/terms/viscous.hpp"
 #include "hmps/time/symplectic_euler.hpp"
