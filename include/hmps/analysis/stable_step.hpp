@@ -40,7 +40,8 @@ namespace hmps::inline HMPS_ABI {
 /// The result holds for the given state; stretch and new contacts change it. A contact that is not touched does not
 /// count. One whose penetration is smaller than the trial displacement counts by about half: set `perturbation` well
 /// below the penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of
-/// docs/stability.md the limit nevertheless agreed with that of the true, unsymmetric motion within half a per cent.
+/// docs/measured/stability.md the limit nevertheless agreed with that of the true, unsymmetric motion within half a per
+/// cent.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for

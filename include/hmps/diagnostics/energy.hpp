@@ -131,28 +131,37 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
       std::plus<>{}, execute);
 }
 
-/// Energy of `mean_dilatation`, sum of V K theta_i^2 / 2.
+/// Energy of `mean_dilatation`, sum of V K theta_i^2 / 2; of `mean_dilatation<2>`, `mean_dilatation_energy<2>`.
 ///
 /// @param bonds   `BondList` or `LatticeBonds` of the body
 /// @param F       deformation gradients, \paper{11}
 /// @param bulk    K in Pa: a number, a `ScalarView`, or a callable of `OneParticle`
 /// @param volume  in m^D, a number or a `ScalarView`
-template <class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Serial>
+template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double mean_dilatation_energy(const B& bonds, const MatrixView<T, D>& F, const Bulk& bulk,
                                             const Vol& volume, const E& execute = {}) {
+  static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
   require_size(F, bonds.size(), "deformation gradients");
   require_positive(volume, bonds.size(), "volume", "m3");
   const auto scales = detail::neighbourhood_scales(bonds);
+  const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
+  const auto mean = [&](std::size_t i, const auto& scaled) {
+    double sum = scaled(i);
+    bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
+    return scale(i) * sum;
+  };
+  const auto once = [&](std::size_t i) {
+    return mean(i, [&](std::size_t k) {
+      const Matrix<double, D> gradient = F[k].template cast<double>();
+      return scale(k) * (determinant(gradient) - 1);
+    });
+  };
+  std::vector<double> means(Means == 2 ? bonds.size() : 0);
+  execute(means.size(), [&](std::size_t i) { means[i] = once(i); });
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {
-        const auto scaled = [&](std::size_t k) {
-          const Matrix<double, D> gradient = F[k].template cast<double>();
-          return static_cast<double>(scales(0, bonds.slot(k))) * (determinant(gradient) - 1);
-        };
-        double sum = scaled(i);
-        bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
-        const double theta = static_cast<double>(scales(0, bonds.slot(i))) * sum;
+        const double theta = Means == 1 ? once(i) : mean(i, [&](std::size_t k) { return scale(k) * means[k]; });
         return static_cast<double>(at_particle(volume, i)) *
                static_cast<double>(detail::value_at(bulk, OneParticle{i})) * 0.5 * theta * theta;
       },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <numeric>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
@@ -43,10 +45,9 @@ class ParticleState : public OneParticle {
   static constexpr int dimension = B::dimension;
   using Vectors = std::vector<Vector<double, dimension>>;
   using Gradients = std::vector<Matrix<double, dimension>>;
-  using Scales = typename B::template Slots<1>;
 
-  ParticleState(std::size_t i, const B& bonds, const Vectors& x, const Gradients& F, const Scales* scales)
-      : OneParticle{i}, position(x[i]), deformation_gradient(F[i]), bonds_(bonds), x_(x), F_(F), scales_(scales) {}
+  ParticleState(std::size_t i, const B& bonds, const Vectors& x, const Gradients& F, const std::vector<double>& theta)
+      : OneParticle{i}, position(x[i]), deformation_gradient(F[i]), bonds_(bonds), x_(x), theta_(theta) {}
 
   const Vector<double, dimension>& position;              ///< x in m.
   const Matrix<double, dimension>& deformation_gradient;  ///< F, \paper{11}.
@@ -66,11 +67,9 @@ class ParticleState : public OneParticle {
 
   /// theta of `MeanDilatation`. Throws `InputError` in a force without a term of the mean dilatation.
   [[nodiscard]] double mean_dilatation() const {
-    require(scales_ != nullptr,
+    require(!theta_.empty(),
             "hmps: an energy asks for the mean dilatation in a force without such a term; give it pressure(...)");
-    double sum = scaled_dilatation(index);
-    bonds_.for_each_bond(index, [&](std::size_t j, const auto&, auto) { sum += scaled_dilatation(j); });
-    return scale(index) * sum;
+    return theta_[index];
   }
 
   /// Calls `visit(r0, u_j - u_i, w)` for each bond, in m.
@@ -84,13 +83,9 @@ class ParticleState : public OneParticle {
   }
 
  private:
-  [[nodiscard]] double scale(std::size_t k) const { return static_cast<double>((*scales_)(0, bonds_.slot(k))); }
-  [[nodiscard]] double scaled_dilatation(std::size_t k) const { return scale(k) * (determinant(F_[k]) - 1); }
-
   const B& bonds_;
   const Vectors& x_;
-  const Gradients& F_;
-  const Scales* scales_;
+  const std::vector<double>& theta_;
 };
 
 namespace detail {
@@ -123,6 +118,25 @@ template <class Term, Bonds B>
   }
 }
 
+/// theta of `MeanDilatation` of each particle, from the deformation gradients `F`; the mean is taken `means` times.
+template <Bonds B, class Gradients, class E>
+[[nodiscard]] std::vector<double> mean_dilatations(const B& bonds, const Gradients& F,
+                                                   const typename B::template Slots<1>& scales, int means,
+                                                   const E& execute) {
+  const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
+  std::vector<double> theta(bonds.size()), mean(bonds.size());
+  execute(bonds.size(), [&](std::size_t i) { theta[i] = determinant(F[i]) - 1; });
+  for (int pass = 0; pass < means; ++pass) {
+    execute(bonds.size(), [&](std::size_t i) {
+      double sum = scale(i) * theta[i];
+      bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scale(j) * theta[j]; });
+      mean[i] = scale(i) * sum;
+    });
+    std::swap(theta, mean);
+  }
+  return theta;
+}
+
 /// The energies of `terms` at the positions `x`; see `InternalForce::energy`.
 template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
 [[nodiscard]] ForceEnergy<sizeof...(Terms)> energies(const B& bonds, const std::tuple<Terms...>& terms,
@@ -134,11 +148,14 @@ template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
   for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = x[i].template cast<double>();
   std::vector<Matrix<double, B::dimension>> F(bonds.size());
   deformation_gradient(bonds, x, matrices(F), execute);
+  constexpr int means = std::max({0, means_of<Terms, typename B::Scalar, B::dimension>()...});
+  std::vector<double> theta;
+  if (scales != nullptr) theta = mean_dilatations(bonds, F, *scales, means, execute);
   using Energies = std::array<double, N>;
   const Energies sum = reduce(
       bonds.size(), Energies{},
       [&](std::size_t i) {
-        const ParticleState<B> particle(i, bonds, positions, F, scales);
+        const ParticleState<B> particle(i, bonds, positions, F, theta);
         const auto own = static_cast<double>(at_particle(volume, i));
         return std::apply([&](const auto&... term) { return Energies{own * energy_of_term(term, particle)...}; },
                           terms);

@@ -13,41 +13,13 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/parts_of_force.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/staging.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
-
-template <class Term, class K, int D>
-struct IsTerm : std::bool_constant<ForceTerm<Term, K, D>> {};
-/// Fails where `Term` is no term of a force, or holds a law that is none, with its name in the first line of the
-/// message.
-template <class Term, class K, int D>
-struct RequireTerm {
-  static_assert(IsTerm<Term, K, D>::value,
-                "hmps: a term of internal_force needs couple(particles, coupling), damping(bonds), damping(particles), "
-                "pressure(particles, theta), tension(bond) or body_force(particles), const; see ForceTerm");
-  static constexpr bool value = true;
-};
-template <class Term, class K, int D>
-requires requires { Term::template serves<K, D>(); }
-struct RequireTerm<Term, K, D> {
-  static constexpr bool value = Term::template serves<K, D>();
-};
-
-/// What a set of terms asks for.
-template <class K, int D, class... Terms>
-struct PartsOfForce {
-  static constexpr bool dilates = (DilatationTerm<Terms, K, D> || ...);
-  static constexpr bool couples = dilates || (CouplingTerm<Terms, K, D> || ...);
-  static constexpr bool pairs = (PairTerm<Terms, K, D> || ...);
-  static constexpr bool displaces = couples || pairs;
-  static constexpr bool damps_each = (DampingOfEachTerm<Terms, K, D> || ...);
-  static constexpr bool damps = damps_each || (DampingTerm<Terms, K, D> || ...);
-  static constexpr bool acts = (BodyForceTerm<Terms, K, D> || ...);
-};
 
 /// The arithmetic of `InternalForce`, a block at a time, and its scratch memory.
 template <Bonds B, class... Terms>
@@ -58,6 +30,7 @@ class ForceSweeps {
 
  public:
   using Parts = PartsOfForce<K, D, Terms...>;
+  static constexpr int means = Parts::means;
   static constexpr bool dilates = Parts::dilates, couples = Parts::couples, damps = Parts::damps;
 
   ForceSweeps(const B& bonds, Terms... terms)
@@ -111,12 +84,20 @@ class ForceSweeps {
   void press(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
-    const T theta = d * detail::sum_over_neighbourhood(bonds, block, dilatation_);
+    // If the mean is taken twice, `average` has swapped the two.
+    auto &dilatation = means == 2 ? pressure_ : dilatation_, &kept = means == 2 ? dilatation_ : pressure_;
+    const T theta = d * detail::sum_over_neighbourhood(bonds, block, dilatation);
     const Matrix<T, D> inverse = bonds.shape_inverse_lanes(block), F = kept_gradient(block);
     const BlockOfParticles<K, D> particles(bonds, block, F, inverse);
     T pressure(0);
     std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
-    pressure_.keep(0, slot, d * pressure);
+    kept.keep(0, slot, d * pressure);
+  }
+  /// If the mean is taken twice: the other mean, of the dilatation before `press`, of the pressure after it.
+  void average(const B& bonds, std::size_t block) {
+    const std::size_t slot = block * B::width;
+    const T d = scales_.lanes(0, slot);
+    pressure_.keep(0, slot, d * (d * detail::sum_over_neighbourhood(bonds, block, dilatation_)));
   }
   /// What the particles of `block` carry to their bonds.
   void couple(const B& bonds, std::size_t block) {

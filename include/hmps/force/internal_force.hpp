@@ -25,8 +25,8 @@ namespace hmps::inline HMPS_ABI {
 /// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the
 /// deformation gradient and what follows from it, one for the sum in `Coupling`. A term that is not
 /// named is not computed; where no term couples, the first sweep is left out, where none damps, no
-/// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond, pair terms and body forces
-/// join the last sweep.
+/// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond, `mean_dilatation<2>` four;
+/// pair terms and body forces join the last sweep.
 ///
 /// `internal_force` makes one. Its type can be written out, for a member of a class, say:
 ///
@@ -63,7 +63,7 @@ class InternalForce {
   requires std::predicate<Moves&, std::size_t>
   void restrict_to(Moves&& moves) {
     bonds_ = &bonds();
-    restricted_.restrict_to(*bonds_, moves, dilates);
+    restricted_.restrict_to(*bonds_, moves, Sweeps::means);
   }
 
   /// WRITES the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s)
@@ -164,7 +164,11 @@ class InternalForce {
     execute(now.block_count(), [&](std::size_t block) { sweeps_.stage_state(now, block, x, v, common); });
     if constexpr (dilates) {
       restricted_.dilated(now, execute, [&](std::size_t block) { sweeps_.dilate(now, block); });
+      if constexpr (Sweeps::means == 2)
+        restricted_.dilated(now, execute, [&](std::size_t block) { sweeps_.average(now, block); });
       restricted_.dilated(now, execute, [&](std::size_t block) { sweeps_.press(now, block); });
+      if constexpr (Sweeps::means == 2)
+        restricted_.dilated(now, execute, [&](std::size_t block) { sweeps_.average(now, block); });
     }
     if constexpr (couples) restricted_.coupled(now, execute, [&](std::size_t block) { sweeps_.couple(now, block); });
     restricted_.summed(now, execute, [&](std::size_t block) { sweeps_.sum(now, block, take); });

@@ -14,17 +14,17 @@ namespace hmps::inline HMPS_ABI::detail {
 template <Bonds B>
 class RestrictedBlocks {
  public:
-  /// Visits from now on what the particles need for which `moves(i)` holds. `dilates`: also for their mean dilatation.
+  /// Visits from now on what the particles need for which `moves(i)` holds. `means`: how often their mean
+  /// dilatation is taken.
   template <class Moves>
-  void restrict_to(const B& bonds, Moves&& moves, bool dilates) {
+  void restrict_to(const B& bonds, Moves&& moves, int means) {
     std::vector<char> moving(bonds.size());
     for (std::size_t i = 0; i < moving.size(); ++i) moving[i] = moves(i) ? 1 : 0;
     summed_ = blocks_of(bonds, moving);
     with_neighbours(bonds, moving);
     coupled_ = blocks_of(bonds, moving);
-    if (dilates) {  // their pressure is that of neighbours, and so are the dilatations that make it
-      with_neighbours(bonds, moving);
-      with_neighbours(bonds, moving);
+    if (means > 0) {  // the pressure depends on neighbours, and the dilatation behind it on theirs
+      for (int ring = 0; ring < 2 * means; ++ring) with_neighbours(bonds, moving);
       dilated_ = blocks_of(bonds, moving);
     }
     restricted_ = true;

@@ -46,6 +46,8 @@ template <class S, int D>
 struct FittedParticles {
   std::vector<Vector<S, D>> positions;  ///< m
   std::vector<S> volumes;               ///< of each particle in m3 (2D: m2); their sum is the volume of the body
+  std::vector<int> layers;              ///< through the wall where each particle lies, 0 in bulk
+  std::vector<S> layer_spacings;        ///< their distance in m
   int iterations = 0;                   ///< made
   /// The largest distance in m of a particle of the outermost layer from half a layer inside the surface.
   double largest_distance = 0;
@@ -160,6 +162,8 @@ requires Shape<F, S, D>
   result.positions.reserve(cloud.particles().size());
   for (const auto& p : cloud.particles()) {
     result.positions.push_back(p.place.template cast<S>());
+    result.layers.push_back(p.layers.thick ? 0 : p.layers.count);
+    result.layer_spacings.push_back(static_cast<S>(p.layers.spacing));
     if (p.layers.layer(p.depth) == 0)
       result.largest_distance = std::max(result.largest_distance, std::abs(p.depth - p.layers.level(0)));
   }

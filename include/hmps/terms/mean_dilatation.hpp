@@ -36,8 +36,15 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// The law of the particles keeps a bulk modulus of its own, which resists changes of J from one particle to the next;
 /// those of law and mean add up in what is larger than a neighbourhood. `split_bulk_modulus` shares one out.
-template <class Bulk>
+///
+/// With two `means`, the mean is taken twice: theta_i = d_i sum_k d_k theta'_k, where theta' is the mean above, and the
+/// pressure likewise. In walls of two layers that lie on no lattice, the means of both sides differ by a fifth of the
+/// change that bending causes, so that nearly incompressible walls still lock; taken twice, by a thirtieth (see
+/// `thin_wall_stabiliser`).
+template <class Bulk, int Means = 1>
 struct MeanDilatation {
+  static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
+  static constexpr int means = Means;
   Bulk bulk;
 
   /// U'(theta) in Pa.
@@ -79,9 +86,11 @@ template <class P>
 }
 
 /// The term of `internal_force` that resists the mean dilatation with the bulk modulus `bulk` in Pa: a number, a view
-/// or a callable. Throws `InputError` for a number that is negative or not finite.
-template <class Bulk>
-[[nodiscard]] MeanDilatation<Bulk> mean_dilatation(Bulk bulk) {
+/// or a callable. Throws `InputError` for a number that is negative or not finite. `mean_dilatation<2>(bulk)` takes the
+/// mean twice, which costs two more sweeps of one number per bond; all terms of the mean dilatation in a force must
+/// take it equally often.
+template <int Means = 1, class Bulk>
+[[nodiscard]] MeanDilatation<Bulk, Means> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)
     require(detail::is_finite(bulk) && bulk >= 0, "hmps: the bulk modulus of mean_dilatation is ", bulk,
             " Pa; it must not be negative");

@@ -159,7 +159,8 @@ concept DampingOfEachTerm =
 };
 
 /// A term whose energy U depends on the mean dilatation theta of a particle and its neighbours:
-/// `term.pressure(particles, theta)` is dU/dtheta in Pa. Satisfied by `MeanDilatation`.
+/// `term.pressure(particles, theta)` is dU/dtheta in Pa. The constant `Term::means`, 1 or 2, says how often the mean is
+/// taken; once if there is none. Satisfied by `MeanDilatation`.
 template <class Term, class K, int D>
 concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, const Lanes<K>& theta) {
   { term.pressure(particles, theta) } -> std::convertible_to<Lanes<K>>;
@@ -193,5 +194,20 @@ concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& 
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||
     DilatationTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;
+
+namespace detail {
+
+/// How often a term takes the mean of the dilatation: 0 if it takes none.
+template <class Term, class K, int D>
+[[nodiscard]] constexpr int means_of() {
+  if constexpr (!DilatationTerm<Term, K, D>)
+    return 0;
+  else if constexpr (requires { Term::means; })
+    return Term::means;
+  else
+    return 1;
+}
+
+}  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

@@ -82,6 +82,60 @@ TYPED_TEST(MeanDilatation, ForceIsTheGradientOfTheEnergy) {
   }
 }
 
+// The same with the mean taken twice.
+TEST(MeanDilatationTwice, ForceIsTheGradientOfTheEnergy) {
+  const auto scene = bent_box<2>(true);
+  const std::size_t n = scene.x.size();
+  const std::vector<double> bulk = Materials(n).d1;
+  const auto bonds = make_bonds<hmps::BondList<double, 2>>(scene);
+  const auto f =
+      force_of<2>(bonds, scene.x, hmps::mean_dilatation<2>([&](const auto& at) { return at(hmps::scalars(bulk)); }));
+  const plain::Body<double, 2> body(Expected<2>::convert(scene.reference), 1.75 * scene.spacing);
+  auto x = Expected<2>::convert(scene.x);
+  std::vector<Eigen::Matrix<double, 2, 2>> F(n);
+  const std::vector<double> scale = scales(body);
+  const auto mean = [&](const std::vector<double>& of) {
+    std::vector<double> result(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      result[i] = scale[i] * scale[i] * of[i];
+      body.for_each_bond(i, [&](const auto& bond) { result[i] += scale[i] * scale[bond.j] * of[bond.j]; });
+    }
+    return result;
+  };
+  const auto energy = [&] {
+    body.deformation_gradient(x, F);
+    std::vector<double> dilatation;
+    for (const auto& of : F) dilatation.push_back(of.determinant() - 1);
+    const std::vector<double> theta = mean(mean(dilatation));
+    double H = 0;
+    for (std::size_t i = 0; i < n; ++i) H += bulk[i] / 2 * theta[i] * theta[i];
+    return H;
+  };
+  const double H = energy();
+  std::vector<hmps::Matrix<double, 2>> gradients(F.begin(), F.end());
+  EXPECT_NEAR(hmps::mean_dilatation_energy<2>(bonds, hmps::matrices(gradients), hmps::scalars(bulk), 1.0), H,
+              64 * std::numeric_limits<double>::epsilon() * H);
+  expect_minus_gradient<2>(f, x, energy, scene.spacing, Tolerance<double, 2>(scene).elastic);
+}
+
+// And the particles that move get the same bits too.
+TEST(MeanDilatationTwice, IsTheSameForTheParticlesThatMove) {
+  scenes::Scene<2> scene;
+  scene.reference = scenes::box<2>({80, 7});
+  scenes::move(scene);
+  const auto bonds = make_bonds<hmps::BondList<double, 2>>(scene);
+  auto force = hmps::internal_force(bonds, hmps::mean_dilatation<2>(1e5));
+  Vectors<2> all(scene.x.size()), some(all);
+  force(hmps::vectors(scene.x), hmps::vectors(all));
+  const auto moves = [&](std::size_t i) { return scene.reference[i][0] < 20 * scene.spacing; };
+  force.restrict_to(moves);
+  force(hmps::vectors(scene.x), hmps::vectors(some));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (moves(i)) {
+      ASSERT_EQ(some[i], all[i]) << i;
+    }
+}
+
 // Where all particles are strained alike theta is J - 1: shared between law and mean, a bulk modulus gives the same
 // force as in the law alone.
 TYPED_TEST(MeanDilatation, SharesTheBulkModulusOfAUniformStrain) {

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/terms/mean_dilatation.hpp"
+#include "hmps/terms/shear_wave_modulus.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+/// What `thin_wall_stabiliser` chooses, in Pa.
+template <class P>
+struct ThinWallStabiliser {
+  std::vector<P> moduli;     ///< E_hat of \paper{20} of each particle, for `artificial`
+  SplitBulkModulus<P> bulk;  ///< for the law and for `mean_dilatation<2>`
+};
+
+namespace detail {
+
+/// E_hat over mu with which a wall of `layers` twists as it should; `c` is their distance in spacings.
+[[nodiscard]] inline double thin_wall_modulus(int layers, double c) {
+  const double side = std::sqrt(2 / (std::sqrt(3.0) * c)), rise = side * std::sqrt(0.75), radius = paper_radius_ratio;
+  double strain = 0, misfit = 0;
+  for (int k = 0; k < layers; ++k) {
+    Matrix<double, 3> A = Matrix<double, 3>::Zero(), B[2] = {A, A};  // of two twists, the second turned by 45 degrees
+    double squares[2] = {0, 0};
+    for (int other = 0; other < layers; ++other) {
+      const double z = (other + 0.5 - 0.5 * layers) * c, hollow = other % 2 - k % 2;
+      for (int p = -5; p <= 5; ++p)
+        for (int q = -3; q <= 3; ++q) {
+          const Vector<double, 3> r((p + 0.5 * q + 0.5 * hollow) * side, (q + hollow / 3) * rise, (other - k) * c);
+          const double w = PaperWeight{}(r.norm(), radius);
+          if (!(w > 0)) continue;
+          const Vector<double, 3> u[2] = {{-r[1] * z, -r[0] * z, r[0] * r[1]},
+                                          {-r[0] * z, r[1] * z, (r[0] * r[0] - r[1] * r[1]) / 2}};
+          A += w * r * r.transpose();
+          for (int m = 0; m < 2; ++m) B[m] += w * u[m] * r.transpose(), squares[m] += w * u[m].squaredNorm();
+        }
+    }
+    for (int m = 0; m < 2; ++m) {
+      const Matrix<double, 3> G = B[m] * A.inverse();
+      strain += (G + G.transpose()).squaredNorm() / 4;
+      misfit += 1.5 / A.trace() * (squares[m] - G.cwiseProduct(B[m]).sum());
+    }
+  }
+  return (std::pow(layers, 3) * c * c / 3 - strain) / misfit;
+}
+
+}  // namespace detail
+
+/// E_hat of each particle and the share of the bulk modulus in a mean dilatation with which walls of a few layers bend
+/// and twist as they should, for particles of `fit_particles` that are bonded with the paper's weight and radius:
+///
+///     const auto fitted = fit_particles(shape, box, l0);
+///     const auto [E_hat, bulk] = thin_wall_stabiliser(fitted.layers, fitted.layer_spacings, l0, K, mu);
+///     internal_force(bonds, elastic(MooneyRivlin<>::from_young(E, bulk.law / 2)), mean_dilatation<2>(bulk.mean),
+///                    artificial([&](const auto& at) { return at(scalars(E_hat)); }))
+///
+/// Nothing is calibrated. A wall of thickness t that is twisted by kappa holds the energy mu kappa^2 t^3 / 6 per area,
+/// whatever its bulk modulus. E_hat is that at which the discrete energy, strain and artificial, is the same where the
+/// layers are hexagonal and each lies over the hollows of the next. The law keeps
+///
+///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 where the volume does not change
+///
+/// because the two particles of a column of two see the same J, and cannot thin on one side: with K_law, one that
+/// cannot is as stiff as a wall that can. See docs/theory.md.
+///
+/// @param layers          through the wall at each particle, 0 in bulk, where E_hat is `shear_wave_modulus`
+/// @param layer_spacings  in m, their distance
+/// @param spacing         l0 in m
+/// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
+/// Throws `InputError` for moduli or a spacing that are not positive, numbers of layers and spacings that are not as
+/// many, a single layer, and layers closer than 0.6 or further apart than 1.3 spacings.
+template <class P, class S>
+[[nodiscard]] ThinWallStabiliser<P> thin_wall_stabiliser(const std::vector<int>& layers,
+                                                         const std::vector<S>& layer_spacings, double spacing,
+                                                         P bulk_modulus, P shear_modulus) {
+  (void)split_bulk_modulus(bulk_modulus, shear_modulus);  // for its errors
+  require(detail::is_finite(spacing) && spacing > 0, "hmps: the particle spacing is ", spacing,
+          " m; it must be positive");
+  require(layers.size() == layer_spacings.size(), "hmps: ", layers.size(), " particles have a number of layers but ",
+          layer_spacings.size(), " a spacing of layers; give both of each particle");
+  const P K = bulk_modulus, mu = shear_modulus;
+  const P law = std::min(K, 4 * mu * (K + mu / 3) / (K + 4 * mu / 3) - 4 * mu / 3);
+  ThinWallStabiliser<P> chosen{{}, {law, K - law}};
+  chosen.moduli.reserve(layers.size());
+  int count = 0;
+  double apart = 0, modulus = 0;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const double c = static_cast<double>(layer_spacings[i]) / spacing;
+    if (layers[i] == 0) {
+      chosen.moduli.push_back(shear_wave_modulus(mu));
+      continue;
+    }
+    require(layers[i] >= 2 && layers[i] <= 100, "hmps: the wall at particle ", i, " has ", layers[i],
+            " layers; it takes two to bend, and more than eight are bulk (0)");
+    require(c >= 0.6 - 1e-6 && c <= 1.3, "hmps: the layers at particle ", i, " are ", c,
+            " spacings apart; give a spacing of which they are 0.6 to 1.3");
+    if (layers[i] != count || c != apart)  // mostly it is as at the particle before
+      modulus = detail::thin_wall_modulus(count = layers[i], apart = c);
+    chosen.moduli.push_back(static_cast<P>(modulus) * mu);
+  }
+  return chosen;
+}
+
+}  // namespace hmps::inline HMPS_ABI
