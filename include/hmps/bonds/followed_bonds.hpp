@@ -23,9 +23,10 @@ class FollowedBonds {
   /// The bonds, wherever they are now. Throws `InputError` if they are no more, or others than they were.
   [[nodiscard]] const B& now() const {
     const Anchored* const place = anchor_.object();
-    require(place != nullptr,
-            "hmps: the bonds of this force are no more: they were destroyed, or others were assigned to them; keep "
-            "them as long as the force, or make the force anew");
+    if (place == nullptr)  // not by `require`, so that a compiler knows below that it is not null
+      throw InputError(
+          "hmps: the bonds of this force are no more: they were destroyed, or others were assigned to them; keep "
+          "them as long as the force, or make the force anew");
     const B& bonds = static_cast<const B&>(*place);
     require(bonds.slot_count() == slots_, "hmps: the bonds of this force hold ", bonds.size(),
             " particles now, others than when it was made; make the force anew");

@@ -87,7 +87,7 @@ struct VtkArrays {
     head += "<DataArray type=\"" + field.type + "\" Name=\"" + xml(field.name) + "\" NumberOfComponents=\"" +
             std::to_string(field.components) + "\" format=\"appended\" offset=\"" + std::to_string(data.size()) +
             "\"/>\n";
-    const auto length = static_cast<std::uint64_t>(field.bytes.size());
+    const std::uint64_t length = field.bytes.size();
     data.append(reinterpret_cast<const char*>(&length), sizeof(length));
     data += field.bytes;
   }
