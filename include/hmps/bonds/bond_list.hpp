@@ -22,15 +22,14 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The bonds of any cloud of particles in its reference configuration: w0 (\paper{8}) and A^-1 (\paper{12}), r0 being
-/// computed when it is needed. `K` is the scalar type in which forces are evaluated, whatever that of the user's state.
+/// The bonds of any cloud of particles in its reference configuration: w0 (\paper{8}) and A^-1 (\paper{12}); r0 is
+/// computed when needed. `K` is the scalar type in which forces are evaluated, independent of that of the user's state.
 ///
-/// Particles may come in any order: inside, they lie in rods (`detail::CloudOrder`), in which the neighbours of those
-/// that follow each other follow each other as well, or nearly so. A row of bonds is a run of such neighbours for each
-/// half of the lanes of a block, with a weight for each lane, zero where the particle is not bonded.
+/// The order of the particles does not matter: internally they are sorted into rods (`detail::CloudOrder`), in which
+/// neighbours of consecutive particles are consecutive too, or nearly so. A row of bonds is a run of such neighbours
+/// for each half of the lanes of a block, with a weight per lane, which is zero where there is no bond.
 ///
-/// Satisfies the `Bonds` concept, as `LatticeBonds` does, which takes less memory and time where particles lie on a
-/// lattice.
+/// Models `Bonds`. `LatticeBonds` takes less memory and time for particles on a lattice.
 template <class K, int D>
 class BondList : public Blocks<K, D> {
   using Base = Blocks<K, D>;
@@ -38,19 +37,18 @@ class BondList : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = detail::SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
+  using Slots = detail::SlotArrays<K, N>;  ///< storage for what bonds read of neighbours
 
-  /// Bonds all pairs of `reference` (m) no further apart than the effective radius for which
-  /// `bonded(i, j)` holds, which must not depend on the order of i and j. Throws `InputError` for
-  /// coincident particles, positions that are not finite, neighbourhoods that do not span space, and a
-  /// spacing that cannot be that of the cloud: in another unit, or else far too large or too small.
+  /// Bonds all pairs of `reference` (m) within the effective radius for which `bonded(i, j)` holds; the predicate must
+  /// be symmetric. Throws `InputError` for coincident particles, positions that are not finite, neighbourhoods that do
+  /// not span space, and a spacing that does not fit the cloud: another unit, or far too large or small.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
   explicit BondList(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
                     Weight&& weight = {})
       : Base(reference, checked_order(reference, settings)) {
     const double radius = settings.spacing * settings.radius_ratio;
     using S = typename VectorView<T, D>::Scalar;
-    // Rounding in the user's scalar must not decide whether a lattice neighbour is one.
+    // Rounding in the user's scalar type must not decide whether a lattice neighbour is bonded.
     const auto reach = static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())));
     const FixedRadiusSearch<T, D> search(reference);
     detail::require_plausible_spacing(search, settings, reach);
@@ -68,21 +66,21 @@ class BondList : public Blocks<K, D> {
         settings.unbonded);
   }
 
-  /// Bonds of the program's own: `neighbours` says which, as `BondNeighbours` describes, and `weights` is a number for
-  /// all, a number for each in the shape of `neighbours`, or a callable `w(i, j)`:
+  /// User-defined bonds: `neighbours` (`BondNeighbours`) specifies the bonds; `weights` is one number, one number per
+  /// bond in the shape of `neighbours`, or a callable `w(i, j)`:
   ///
   ///     hmps::BondList<double, 3> bonds(X, pairs, weights);
   ///
-  /// The order in which bonds are given does not matter. Throws `InputError`, naming the particles, for an index out of
-  /// range, a particle bonded to itself or to one at the same place, a bond that is there twice or from one end only, a
-  /// weight that is not positive and finite or differs between the ends, and neighbourhoods that do not span space.
+  /// The order of the bonds does not matter. Throws `InputError`, naming the particles, for an index out of range, a
+  /// bond of a particle to itself or to a coincident one, a bond that is repeated or given from one end only, a weight
+  /// that is not positive and finite or differs between the ends, and neighbourhoods that do not span space.
   template <class T, BondNeighbours N, class W>
   requires(!std::convertible_to<const N&, BondSettings>)
       BondList(const VectorView<T, D>& reference, const N& neighbours, const W& weights)
       : BondList(reference, detail::OwnBonds::make<K>(reference.size(), neighbours, weights)) {}
 
-  /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
-  /// to `i` (m) and weight.
+  /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative to `i` (m) and
+  /// weight.
   template <class Visit>
   void for_each_bond(std::size_t i, Visit&& visit) const {
     const std::size_t own = this->slot(i), block = own / width, l = own % width;
@@ -115,8 +113,8 @@ class BondList : public Blocks<K, D> {
     return static_cast<std::size_t>(std::max(starts_[group.start + group.split - group.row - 1], 0));
   }
 
-  /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot `first + l`, of those of
-  /// the second half of a row that is split slot `second + l`.
+  /// A row: at most one bond per lane of a block. The neighbour of lane l is slot `first + l`, or for the second half
+  /// of a split row, slot `second + l`.
   template <bool split>
   class Row {
    public:
@@ -148,7 +146,7 @@ class BondList : public Blocks<K, D> {
     Lanes<K> r0_[std::size_t{D}];
   };
 
-  /// Calls `visit(row)` for each row of bonds of `block`: those that are not split, then the others.
+  /// Calls `visit(row)` for each row of bonds of `block`: whole rows first, then split ones.
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
     Lanes<K> own[std::size_t{D}];
@@ -205,18 +203,18 @@ class BondList : public Blocks<K, D> {
       add_rows(halves);
     }
     if (this->size() > 0) this->keep_standard(fullest.weight, fullest.A.trace() / fullest.weight);
-    weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // nothing is asked for beyond the end
+    weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // padding for the prefetch
     weights_.shrink_to_fit();
     starts_.shrink_to_fit();
   }
 
-  /// A bond of one lane: its neighbour is slot `first + lane`.
+  /// A bond of one lane; its neighbour is slot `first + lane`.
   struct Bond {
     std::int32_t first;
     std::uint32_t lane;
     K w;
   };
-  /// Where the rows of a block begin, where those that are split do, and where in `starts_` their runs do.
+  /// The first row of a block, its first split row, and the first entry of its runs in `starts_`.
   struct Group {
     std::uint32_t row = 0, split = 0, start = 0;
   };
@@ -232,15 +230,15 @@ class BondList : public Blocks<K, D> {
     return static_cast<std::int32_t>(neighbour) - static_cast<std::int32_t>(lane);
   }
 
-  /// Adds the rows of the next block, from the bonds of both halves of its lanes: a row for each run that both have,
-  /// then one for each two runs that only one of them has.
+  /// Adds the rows of the next block from the bonds of both halves of its lanes: one row for each run that both halves
+  /// have, then one for each pair of runs that only one half has.
   void add_rows(std::array<std::vector<Bond>, 2>& halves) {
     std::array<std::vector<std::size_t>, 2> alone;  // where in `halves` a run begins
     const auto run = [&](std::size_t h, std::size_t k) {
       if (k >= halves[h].size()) return std::numeric_limits<std::int32_t>::max();
       return halves[h][k].first;
     };
-    /// Puts the weights of the run at `k` of a half into the row; returns where the next run begins.
+    /// Writes the weights of the run at `k` of one half into the row; returns the start of the next run.
     const auto fill = [&](std::size_t h, std::size_t k, Lanes<K>& row) {
       const std::int32_t first = run(h, k);
       for (; run(h, k) == first && k < halves[h].size(); ++k) row.lane[halves[h][k].lane] = halves[h][k].w;
@@ -265,7 +263,7 @@ class BondList : public Blocks<K, D> {
     for (std::size_t k = 0; k < std::max(alone[0].size(), alone[1].size()); ++k) {
       Lanes<K>& row = weights_.emplace_back(K(0));
       for (std::size_t h = 0; h < 2; ++h) {
-        // A half without a run reads along with the other.
+        // A half without a run reads the run of the other half.
         const std::size_t of = k < alone[h].size() ? h : 1 - h;
         starts_.push_back(run(of, alone[of][k]));
         if (of == h) fill(h, alone[h][k], row);
@@ -274,7 +272,7 @@ class BondList : public Blocks<K, D> {
     groups_.push_back({static_cast<std::uint32_t>(weights_.size()), 0, static_cast<std::uint32_t>(starts_.size())});
   }
 
-  /// How many rows before they are visited weights are asked for: without that, the sweeps wait for them.
+  /// Prefetch distance of weights in rows; without it, the sweeps wait for them.
   static constexpr std::size_t ahead = 12;
   detail::Places<K, D> places_;
   std::vector<Lanes<K>> weights_;     ///< Of each row.

@@ -12,21 +12,21 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Bonds every pair: the predicate of a body that is not cut.
+/// Bonds every pair: the default predicate, which cuts no bonds.
 struct EveryBond {
   constexpr bool operator()(std::size_t, std::size_t) const { return true; }
 };
 
-/// How the bonds of a cloud of particles are made.
+/// Settings of the bonds of a cloud.
 struct BondSettings {
   double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
   double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
-  /// Whether particles may be without any bond: those that a part of a body borrows from other parts, and whose forces
-  /// are computed there. Their F is 1. Otherwise such a particle is an error.
+  /// Whether particles may have no bonds, such as those that a part of a body borrows from other parts, where their
+  /// forces are computed. Their F is 1. Otherwise such a particle is an error.
   bool unbonded = false;
-  /// Of `LatticeBonds`: the axes in the order of the sweeps, the slowest first, as `lattice_axes` gives those of the
-  /// whole body. Sums over bonds follow that order, so that with the same axes parts of a body give the same bits as
-  /// the whole. All zero: what suits the particles best.
+  /// For `LatticeBonds`: the axes in sweep order, slowest first, as `lattice_axes` returns them for the whole body.
+  /// Sums over bonds follow this order, so that parts of a body with the same axes reproduce the bits of the whole. All
+  /// zero: chosen by the particles.
   std::array<int, 3> axes{};
 };
 

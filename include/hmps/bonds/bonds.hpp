@@ -17,8 +17,8 @@ struct AnyVisit {
   void operator()(const Arguments&...) const {}
 };
 
-/// One bond of each lane of a block: what the sweeps ask of a row. The compiler knows the types of the rows only when
-/// it compiles a sweep, so that `Bonds` cannot ask.
+/// A row: at most one bond per lane of a block. The types of rows are known only when a sweep is compiled, so `Bonds`
+/// cannot check them.
 template <class Row, class Slots, class K>
 concept BondRow = requires(const Row& row, const Slots& slots) {
   { row.gather(slots)[std::size_t{0}] } -> std::convertible_to<Lanes<K>>;
@@ -28,7 +28,7 @@ concept BondRow = requires(const Row& row, const Slots& slots) {
   { Row::skips } -> std::convertible_to<bool>;
 };
 
-/// Fails where `Row` is no row of bonds.
+/// Fails to compile if `Row` is not a row of bonds.
 template <class Row, class B>
 struct RequireRow {
   static_assert(
@@ -39,12 +39,12 @@ struct RequireRow {
 };
 }  // namespace detail
 
-/// The bonds of a body: a `Blocks` with `for_each_row(block, visit)` that calls `visit(row)` for rows, of one type or
-/// of several, with `row.gather(slots)` (from `Slots<N>`, what `[c]` gives component c of for the neighbour in each
-/// lane), `row.offset(c)` (component c of r0),
-/// `row.along(c)` (false where that is zero for all lanes and may be skipped), the constant `skips` (whether it ever
-/// is) and `row.weight()` (w, zero in lanes without this bond). `for_each_bond(i, visit)` calls `visit(j, r0, w)` for
-/// the bonds of particle i. Satisfied by `BondList` and `LatticeBonds`.
+/// The bonds of a body: a `Blocks` with `for_each_row(block, visit)`, which calls `visit(row)` for each row; rows may
+/// have several types. A row has `row.gather(slots)`, which reads `Slots<N>` and returns an object whose `[c]` is
+/// component c for the neighbour in each lane; `row.offset(c)`, component c of r0; `row.along(c)`, which is false if
+/// that component is zero in all lanes and may be skipped; the constant `skips`, whether it is ever false; and
+/// `row.weight()`, w, zero in lanes without a bond. `for_each_bond(i, visit)` calls `visit(j, r0, w)` for the bonds of
+/// particle i. Models: `BondList`, `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &&
     requires(const B& bonds, typename B::template Slots<1>& slots, const typename B::template Slots<1>& kept,
@@ -62,7 +62,7 @@ concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &
 namespace detail {
 template <class B>
 struct IsBonds : std::bool_constant<Bonds<B>> {};
-/// Fails where `B` is none, with its name in the first line of the message.
+/// Fails to compile if `B` does not model `Bonds`; the first line of the message names it.
 template <class B>
 struct RequireBonds {
   static_assert(IsBonds<B>::value,

@@ -15,18 +15,18 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// An order of any cloud of particles in which neighbours follow each other where they can: rods of about one spacing
-/// squared, one beside the other in layers, each particle of a rod behind the one before it. On a lattice, also one
-/// that is jittered or has gaps, the rods are its rows. The order follows from the positions; the order in which they
-/// are given counts only where the first axis would do as well as another, or two positions are the same.
+/// An order of any cloud of particles in which neighbours are consecutive where possible: rods with a cross-section of
+/// about one spacing squared, side by side in layers; particles of a rod are consecutive. For a lattice, also one that
+/// is jittered or has gaps, the rods are its rows. The order depends on the positions only, except that the given order
+/// decides between equivalent axes and coincident positions.
 template <int D>
 struct CloudOrder {
   template <class Number>
   using PerAxis = std::array<Number, std::size_t{D}>;
 
-  std::vector<Index> order;  ///< The particles, one after the other.
+  std::vector<Index> order;  ///< The particles in this order.
 
-  /// Of particles at `reference` (m, finite), `spacing` (m) apart or so.
+  /// Orders particles at `reference` (m, finite) that are about `spacing` (m) apart.
   template <class T>
   CloudOrder(const VectorView<T, D>& reference, double spacing) : order(reference.size()) {
     const std::size_t n = reference.size();
@@ -58,8 +58,8 @@ struct CloudOrder {
   }
 
  private:
-  /// Where particles lie within a spacing along component `c`, by the mean direction of their places on a circle of
-  /// that length: of a lattice, also a jittered one, the place of a layer.
+  /// The phase of the layers along component `c`: the mean direction of the positions on a circle whose circumference
+  /// is one spacing.
   template <class T>
   [[nodiscard]] static double middle_of_layer(const VectorView<T, D>& reference, int c, double spacing) {
     const double first = static_cast<double>(reference(0, c)), turn = 2 * std::acos(-1.0) / spacing;
@@ -72,9 +72,9 @@ struct CloudOrder {
     return first + std::atan2(sine, cosine) / turn;
   }
 
-  /// Rods along the axis that makes the fewest of them, layers across the longest of the other axes. Where nothing
-  /// else tells one from another, rods lie as most particles follow each other, along the first axis or the last, so
-  /// that the sweeps read the user's arrays as they are.
+  /// Rods lie along the axis that gives the fewest of them, layers across the longest of the other axes. If axes are
+  /// equivalent, rods lie along the first or the last axis, whichever makes more particles consecutive, so that the
+  /// sweeps read the user's arrays in order.
   [[nodiscard]] static PerAxis<int> axes(const PerAxis<std::vector<std::int32_t>>& cell,
                                          const PerAxis<std::int32_t>& extent) {
     const std::size_t n = cell[0].size();
@@ -103,7 +103,7 @@ struct CloudOrder {
     return axis;
   }
 
-  /// Whether most particles lie beside the one before them along the first axis.
+  /// Whether most particles lie next to their predecessor along the first axis.
   [[nodiscard]] static bool first_axis_is_fastest(const PerAxis<std::vector<std::int32_t>>& cell) {
     std::size_t follow = 0;
     for (std::size_t i = 1; i < cell[0].size(); ++i) {

@@ -10,17 +10,17 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Bonds that someone else keeps and may move, in a `std::vector` of bodies, say.
+/// Refers to bonds that the user owns and may move, for example in a `std::vector` of bodies.
 template <Bonds B>
 class FollowedBonds {
  public:
-  /// Throws `InputError` for bonds of no particle: those that were moved from are.
+  /// Throws `InputError` for bonds without particles, such as those that were moved from.
   explicit FollowedBonds(const B& bonds) : anchor_(bonds), slots_(bonds.slot_count()) {
     require(bonds.size() > 0,
             "hmps: the bonds of this force hold no particle; were they moved elsewhere, or made of an empty cloud?");
   }
 
-  /// The bonds, wherever they are now. Throws `InputError` if they are no more, or others than they were.
+  /// The bonds at their current address. Throws `InputError` if they no longer exist or have been replaced.
   [[nodiscard]] const B& now() const {
     const Anchored* const place = anchor_.object();
     if (place == nullptr)  // not by `require`, so that a compiler knows below that it is not null

@@ -23,9 +23,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The order of particles on a cubic lattice of `spacing` (m) in which the sweeps over `LatticeBonds`
-/// visit them: particle `order[s]` comes at place s. Arrays of state that are kept in this order are
-/// read in one go. Throws `InputError` for particles off the lattice or at the same place.
+/// The order in which the sweeps over `LatticeBonds` visit particles on a cubic lattice of `spacing` (m): particle
+/// `order[s]` is at position s. Arrays in this order are read sequentially. Throws `InputError` for particles off the
+/// lattice or at the same site.
 template <class T, int D>
 [[nodiscard]] std::vector<Index> lattice_order(const VectorView<T, D>& reference, double spacing) {
   return detail::LatticeCells<D>(reference, spacing).order;
@@ -40,11 +40,10 @@ template <class T, int D>
   return axes;
 }
 
-/// The bonds of particles on a simple cubic lattice in their reference configuration. All particles
-/// share the offsets r0 and weights w0 (\paper{8}); a block of particles keeps, for each offset, the
-/// runs of neighbours that follow each other, eight bytes each. A particle may lie off its place by
-/// the rounding of the user's scalar, up to a thousandth of the spacing; r0 is that of the lattice.
-/// Satisfies the `Bonds` concept.
+/// The bonds of particles on a simple cubic lattice in their reference configuration. All particles share the offsets
+/// r0 and weights w0 (\paper{8}). For each offset, a block of particles stores the runs of consecutive neighbours,
+/// eight bytes each. Particles may deviate from their sites by the rounding of the user's scalar type, up to a
+/// thousandth of the spacing; r0 is that of the lattice. Models `Bonds`.
 template <class K, int D>
 class LatticeBonds : public Blocks<K, D> {
   using Base = Blocks<K, D>;
@@ -52,12 +51,11 @@ class LatticeBonds : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = detail::SlotArrays<K, N>;  ///< In which the sweeps keep what bonds read of neighbours.
+  using Slots = detail::SlotArrays<K, N>;  ///< storage for what bonds read of neighbours
 
-  /// Bonds all pairs of `reference` (m, any order, on one lattice) no further apart than the
-  /// effective radius for which `bonded(i, j)` holds. Throws `InputError` for particles off the
-  /// lattice, with the spacing that they seem to have, coincident ones, none at all, and neighbourhoods that do not
-  /// span space.
+  /// Bonds all pairs of `reference` (m, in any order, on one lattice) within the effective radius for which `bonded(i,
+  /// j)` holds. Throws `InputError` for particles off the lattice, with their apparent spacing, for coincident
+  /// particles, for an empty body, and for neighbourhoods that do not span space.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
   explicit LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
                         Weight&& weight = {})
@@ -88,8 +86,8 @@ class LatticeBonds : public Blocks<K, D> {
     return static_cast<std::size_t>(std::max(runs_[first_run_[(block + 1) * directions] - 1].first, 0));
   }
 
-  /// One bond of some lanes of a block, as the sweeps see it: the neighbour of lane l is slot
-  /// `first + l`, and r0 has components along `Axes` alone (bit c for component c).
+  /// A row: at most one bond per lane of a block. The neighbour of lane l is slot `first + l`; r0 has nonzero
+  /// components along `Axes` only (bit c for component c).
   template <unsigned Axes>
   struct Row {
     const K* r0;
@@ -106,15 +104,15 @@ class LatticeBonds : public Blocks<K, D> {
     [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
   };
 
-  /// Calls `visit(row)` for each row of bonds of `block`, those along the same axes after each other, with a type of
-  /// row for each set of axes: what a bond along few axes need not compute is known to the compiler.
+  /// Calls `visit(row)` for each row of bonds of `block`, grouped by axes. Each set of axes has its own type of row, so
+  /// that the compiler removes computations with zero components.
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
     for_each_row(block, visit, std::make_integer_sequence<unsigned, directions>{});
   }
 
  private:
-  /// Sets of axes that a bond can be along; that with the bits b stands at place b - 1.
+  /// The sets of axes of bonds; the set with the bits b is at index b - 1.
   static constexpr unsigned directions = (1u << D) - 1;
 
   template <class Visit, unsigned... Places>
@@ -141,7 +139,7 @@ class LatticeBonds : public Blocks<K, D> {
     std::uint16_t offset;
   };
   static_assert(width <= 16, "hmps: the lanes of a run are kept in 16 bits");
-  /// A run and the set of axes of a block that it belongs to.
+  /// A run of neighbours of a block, with its set of axes.
   struct Placed {
     std::size_t group;
     Run run;
@@ -172,7 +170,7 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
     auto around = cells_within(settings.radius_ratio);
-    // By the axes, then in the order of the slots, so that the sweeps go through memory in one direction.
+    // Sorted by axes, then by slot, so that the sweeps read memory in one direction.
     std::sort(around.begin(), around.end(), [&](const auto& a, const auto& b) {
       return std::pair(axes_of(a), cells.key(a)) < std::pair(axes_of(b), cells.key(b));
     });
@@ -189,7 +187,7 @@ class LatticeBonds : public Blocks<K, D> {
       for (int c = 0; c < D; ++c) offset.r0[c] = static_cast<K>(r0[c]);
       offset.w = static_cast<K>(w);
       const std::int64_t step = cells.key(cell);
-      // Slots are sorted by key, so that the neighbours at one offset are met in order too.
+      // Slots are sorted by key, so that neighbours at one offset are found in order.
       for (std::size_t s = 0, t = 0; s < n; ++s) {
         while (t < n && keys[t] < keys[s] + step) ++t;
         if (t == n) break;
@@ -205,7 +203,7 @@ class LatticeBonds : public Blocks<K, D> {
         placed.back().run.lanes = static_cast<std::uint16_t>(placed.back().run.lanes | 1u << s % width);
       }
     }
-    if (placed.empty() && n > 1) {  // else it is for the particle without neighbours to say
+    if (placed.empty() && n > 1) {  // otherwise the particle without neighbours is reported
       const std::string hint = detail::spacing_hint(reference, settings.spacing);
       if (!hint.empty()) throw InputError("hmps: no two particles are near enough to be bonded" + hint);
     }
@@ -216,7 +214,7 @@ class LatticeBonds : public Blocks<K, D> {
     this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
   }
 
-  /// Keeps the runs block by block that come offset by offset: a counting sort keeps the order of the offsets.
+  /// Sorts the runs, which arrive offset by offset, by block; a counting sort preserves the order of offsets.
   void keep_runs(const std::vector<Placed>& placed) {
     require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", this->size(),
             " particles make ", placed.size(), " runs, more than can be numbered; divide the body");
@@ -228,7 +226,7 @@ class LatticeBonds : public Blocks<K, D> {
     for (const Placed& p : placed) runs_[next[p.group]++] = p.run;
   }
 
-  /// The cells no further than `radius` spacings from the origin, without the origin.
+  /// The cells within `radius` spacings of the origin, except the origin.
   [[nodiscard]] static std::vector<typename detail::LatticeCells<D>::Cell> cells_within(double radius) {
     require(radius >= 1 && radius < 16, "hmps: the effective radius is ", radius,
             " spacings; on a lattice it must be at least 1 and below 16");
@@ -249,7 +247,7 @@ class LatticeBonds : public Blocks<K, D> {
     return cells;
   }
 
-  /// The axes along which a neighbour in `cell` lies.
+  /// The axes along which `cell` differs from the origin.
   [[nodiscard]] static unsigned axes_of(const typename detail::LatticeCells<D>::Cell& cell) {
     unsigned axes = 0;
     for (int c = 0; c < D; ++c)

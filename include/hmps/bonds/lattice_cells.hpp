@@ -21,7 +21,7 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// The cells of a simple cubic lattice that particles occupy, sorted row by row.
+/// The occupied cells of a simple cubic lattice, sorted row by row.
 template <int D>
 struct LatticeCells {
   using Cell = std::array<std::int32_t, std::size_t{D}>;
@@ -57,7 +57,7 @@ struct LatticeCells {
                                  " lie at the same place; remove one of them", spacing_hint(reference, spacing)));
   }
 
-  /// A number that orders cells row by row; that of a cell plus an offset is the sum of both.
+  /// A key that sorts cells row by row; the key of a cell plus an offset is the sum of both keys.
   [[nodiscard]] std::int64_t key(const Cell& c) const {
     std::int64_t k = 0;
     for (int d = 0; d < D; ++d)
@@ -71,7 +71,7 @@ struct LatticeCells {
       require(std::count(axis.begin(), axis.end(), d) == 1, "hmps: the axes of a lattice are to be each of 0 to ",
               D - 1, " once, but axis ", d, " is not; take those that lattice_axes returns");
   }
-  /// What to do about particles that are not on the lattice of `spacing`.
+  /// Advice for particles that are not on the lattice of `spacing`.
   template <class T>
   [[nodiscard]] static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
     const std::string hint = spacing_hint(reference, spacing);
@@ -79,8 +79,8 @@ struct LatticeCells {
                         : hint + " For a cloud that is no lattice use BondList";
   }
 
-  /// Rows along the axis that makes the fewest of them, so that most neighbours of a block follow
-  /// each other; planes across the longest axis, so that neighbouring planes are close in memory.
+  /// Rows lie along the axis that gives the fewest of them, so that most neighbours of a block are consecutive; planes
+  /// lie across the longest axis, so that neighbouring planes are close in memory.
   void choose_axes() {
     std::array<std::size_t, std::size_t{D}> rows{};
     std::array<std::int32_t, std::size_t{D}> extent{};

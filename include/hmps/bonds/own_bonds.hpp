@@ -51,16 +51,15 @@ concept NeighbourLists = !BondPairs<N> && requires(const N& lists) {
 
 }  // namespace detail
 
-/// Which particles are bonded, for `BondList`: a range of pairs of indices, `std::pair` or `std::array`, with each bond
-/// once; or a list of neighbours for each particle, such as `std::vector<std::vector<Index>>` or `NeighbourList`, with
-/// each bond in the lists of both ends.
+/// Specifies which particles are bonded, for `BondList`: a range of pairs of indices (`std::pair` or `std::array`),
+/// with each bond once; or a list of neighbours per particle, such as `std::vector<std::vector<Index>>` or
+/// `NeighbourList`, with each bond in the lists of both ends.
 template <class N>
 concept BondNeighbours = detail::BondPairs<N> || detail::NeighbourLists<N>;
 
 namespace detail {
 
-/// The bonds that a program chose itself, checked, from both ends: of each particle sorted by neighbour, whatever the
-/// order in which they came.
+/// User-defined bonds after all checks, from both ends, sorted by particle and neighbour whatever the given order.
 class OwnBonds {
  public:
   struct Bond {
@@ -68,9 +67,9 @@ class OwnBonds {
     double weight;
   };
 
-  /// Of `size` particles. `weights` is the weight of all bonds; or a number for each, in the shape of `neighbours`; or
-  /// a callable `w(i, j)`, which must not depend on the order of its arguments. Weights must be positive and finite
-  /// also in the scalar `K`.
+  /// For `size` particles. `weights` is one weight for all bonds, or one number per bond in the shape of `neighbours`,
+  /// or a callable `w(i, j)`, which must be symmetric. Weights must be positive and finite, also in the scalar type
+  /// `K`.
   template <class K, BondNeighbours N, class W>
   static OwnBonds make(std::size_t size, const N& neighbours, const W& weights) {
     OwnBonds own(size);
@@ -108,7 +107,7 @@ class OwnBonds {
     for_each_length(reference, [&](std::size_t, double s) { square = std::max(square, s); });
     return std::sqrt(square);
   }
-  /// The mean over the particles of the length of their shortest bond (m): a spacing by which to order them. 1 where
+  /// The mean over all particles of the length of their shortest bond (m), used as the spacing for their order. 1 if
   /// there is no bond.
   template <class T, int D>
   [[nodiscard]] double spacing(const VectorView<T, D>& reference) const {
@@ -122,7 +121,7 @@ class OwnBonds {
   }
 
  private:
-  /// Whether there is a number for each bond: neither one for all nor a callable.
+  /// Whether `weights` has one number per bond.
   template <class W>
   static constexpr bool is_given = !std::is_arithmetic_v<W> && !std::invocable<const W&, std::size_t, std::size_t>;
 
@@ -176,7 +175,7 @@ class OwnBonds {
     bonds_[i].push_back({static_cast<Index>(j), w});
   }
 
-  /// Sorts the bonds and refuses those that are there twice.
+  /// Sorts the bonds and refuses repeated ones.
   void settle() {
     for (std::size_t i = 0; i < bonds_.size(); ++i) {
       auto& own = bonds_[i];

@@ -13,10 +13,10 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Throws `InputError` if `settings` cannot be meant for the cloud that `search` is over: if its particles have more
-/// than four times the neighbours that so large a radius gives at that spacing, or if nine in ten have none. Both are
-/// what metres beside millimetres make; the first would take memory that grows with the square of the particles, so
-/// that 64 particles, evenly spread over the cloud's order, are looked at before all are.
+/// Throws `InputError` if `settings` do not fit the cloud of `search`: if its particles have more than four times the
+/// neighbours expected within the radius, or if nine in ten have none. Both occur when metres and millimetres are
+/// mixed. The former would take memory quadratic in the number of particles, so 64 particles, spread over the cloud,
+/// are tested first.
 template <class T, int D>
 void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
                                typename VectorView<T, D>::Scalar radius) {

@@ -12,8 +12,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The reference neighbourhood of one particle as \paper{12} sums it, in double precision:
-/// bonds are added one by one.
+/// The sums of \paper{12} over the reference neighbourhood of one particle, in double; bonds are added one by one.
 template <int D>
 struct ShapeTensor {
   Matrix<double, D> A = Matrix<double, D>::Zero();          ///< sum w r0 (x) r0, in m2.
@@ -28,15 +27,15 @@ struct ShapeTensor {
     ++neighbours;
   }
 
-  /// A^-1. Throws `InputError` that names `particle` if its bonds do not span space: without them
-  /// no deformation gradient exists (\paper{11}). Zero, which makes F = 1, if it has none and may be `unbonded`.
+  /// A^-1. Throws `InputError`, naming `particle`, if its bonds do not span space: the deformation gradient
+  /// (\paper{11}) would not exist.
   [[nodiscard]] Matrix<double, D> inverse(std::size_t particle, bool unbonded = false) const {
     if (unbonded && neighbours == 0) return A;
     const double mean = A.trace() / D;
     double volume = 1;
     for (int d = 0; d < D; ++d) volume *= mean;
-    // The determinant over that of a ball of the same trace: 1 for a full neighbourhood, 0.5 for a
-    // flat surface, 0 when all bonds lie in a plane or on a line.
+    // The determinant relative to that of a sphere with the same trace: 1 for a full neighbourhood, 0.5 for a flat
+    // surface, 0 if all bonds lie in a plane or on a line.
     require(neighbours >= D && detail::is_finite(mean) && mean > 0 && A.determinant() > 1e-4 * volume,
             "hmps: particle ", particle, " has ", neighbours,
             neighbours == 1 ? " neighbour that does" : " neighbours that do", " not span the ", D,
@@ -46,8 +45,8 @@ struct ShapeTensor {
     return A.inverse();
   }
 
-  /// Smallest eigenvalue of A in m2: over the squared spacing 3.48 in a full cubic lattice of
-  /// r_e = 1.75 spacings, 1.74 at a flat surface; below 0.75 the stable step shrinks.
+  /// Smallest eigenvalue of A in m2. Divided by the squared spacing: 3.48 in a full cubic lattice with r_e = 1.75
+  /// spacings, 1.74 at a flat surface; below 0.75 the stable step shrinks.
   [[nodiscard]] double support() const {
     Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver;
     solver.computeDirect(A, Eigen::EigenvaluesOnly);

@@ -5,8 +5,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Weight of a bond by \paper{8}: w(r) = r_e / r - 1 for 0 < r <= r_e, else 0. Dimensionless.
-/// Any callable `T(T distance, T radius)` that is not negative may stand in its place.
+/// The weight of a bond by \paper{8}: w(r) = r_e / r - 1 for 0 < r <= r_e, otherwise 0. Dimensionless. Any callable
+/// `T(T distance, T radius)` with a non-negative result can replace it.
 struct PaperWeight {
   template <class T>
   [[nodiscard]] constexpr T operator()(T distance, T radius) const {
@@ -14,8 +14,8 @@ struct PaperWeight {
   }
 };
 
-/// Effective radius over initial particle spacing, r_e / l0, that the paper uses for bonds and for
-/// metaballs (sections 2.2 and 2.7).
+/// Effective radius divided by the initial particle spacing, r_e / l0, in the paper, for bonds and for metaballs
+/// (sections 2.2 and 2.7).
 inline constexpr double paper_radius_ratio = 1.75;
 
 }  // namespace hmps::inline HMPS_ABI

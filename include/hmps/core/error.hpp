@@ -19,27 +19,26 @@
 
 namespace hmps {
 
-/// Base of every exception that the library throws. The message names the particle, the value
-/// and the remedy.
+/// Base class of all exceptions of the library. The message names the particle, the value and the remedy.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the caller handed over cannot be worked with: thrown at the door, before any result.
+/// Invalid input. Thrown before anything is computed.
 struct InputError : Error {
   using Error::Error;
 };
 
-/// The simulation itself left the range in which it means anything (inverted particle, NaN,
-/// a speed beyond the speed of sound): thrown while running.
+/// A simulation that has left its valid range (inverted particle, NaN, a speed above the speed of sound). Thrown during
+/// a run.
 struct StateError : Error {
   using Error::Error;
 };
 
 namespace messages {
 
-/// One part of a message, whatever its type: words, a number, or the numbers of an Eigen vector. Refers to it. The text
-/// is made by functions that are no templates, since a header-only library pays for each place that can throw.
+/// One part of a message: words, a number, or the numbers of an Eigen vector. Refers to it. Non-template functions make
+/// the text, because in a header-only library every place that can throw adds to compile time.
 class MessagePart {
  public:
   template <class T>
@@ -94,7 +93,7 @@ class MessagePart {
 
  private:
   enum class Kind { words, integer, unsigned_integer, number, vector };
-  /// With nine digits, which tell any two floats apart.
+  /// With nine digits, which distinguish any two floats.
   static void append_number(std::string& text, double number) {
     char digits[32];
     text.append(digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 9).ptr);
@@ -122,14 +121,13 @@ class MessagePart {
 
 }  // namespace messages
 
-/// Joins its arguments into one message; numbers are written with nine digits, which
-/// tell any two floats apart.
+/// Joins its arguments into one message. Numbers have nine digits, which distinguish any two floats.
 template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
   return messages::join({messages::MessagePart(parts)...});
 }
 
-/// Throws an `InputError` made of `parts` unless `condition` holds.
+/// Throws an `InputError` with the message `parts` unless `condition` holds.
 template <class... Parts>
 void require(bool condition, const Parts&... parts) {
   if (!condition) messages::throw_input_error({messages::MessagePart(parts)...});

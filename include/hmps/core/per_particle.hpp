@@ -21,8 +21,8 @@ template <class T>
 struct IsScalarView<ScalarView<T>> : std::true_type {};
 }  // namespace detail
 
-/// One particle as a callable sees it outside the sweeps: `at(view)` is a parameter of the particle. With it
-/// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` serves force and energy alike.
+/// One particle, as the argument of callables outside the sweeps: `at(view)` is the parameter of the particle. The same
+/// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` thus serves force and energy.
 struct OneParticle {
   std::size_t index;
 
@@ -38,8 +38,8 @@ struct OneParticle {
   }
 };
 
-/// A quantity such as density, volume or viscosity: a number that all particles share, a `ScalarView` with one for
-/// each, or a callable that computes it from parameters, `[&](const auto& at) { return factor * at(density); }`.
+/// A quantity such as density, volume or viscosity: one number for all particles, a `ScalarView` with one per particle,
+/// or a callable that computes it from parameters, `[&](const auto& at) { return factor * at(density); }`.
 template <class Q>
 concept PerParticle = std::is_arithmetic_v<Q> || detail::IsScalarView<Q>::value || requires(const Q& quantity) {
   { quantity(OneParticle{}) } -> std::convertible_to<double>;
@@ -47,8 +47,8 @@ concept PerParticle = std::is_arithmetic_v<Q> || detail::IsScalarView<Q>::value 
 
 namespace detail {
 
-/// What `quantity` is for `at`, one particle or a block of them: itself, unless it is a view or a callable. The one
-/// place where numbers, views and callables meet.
+/// The value of `quantity` for `at`, which is one particle or a block. Handles numbers, views and callables for the
+/// whole library.
 template <class Q, class At>
 [[nodiscard]] HMPS_INLINE decltype(auto) value_at(const Q& quantity, const At& at) {
   if constexpr (IsScalarView<Q>::value)
@@ -59,7 +59,7 @@ template <class Q, class At>
     return quantity;
 }
 
-/// Throws `InputError` if `quantity`, called `name`, is a view of another number of particles than `size`.
+/// Throws `InputError` if `quantity`, called `name`, is a view of a size other than `size`.
 template <class Q>
 void require_quantity(const Q& quantity, std::size_t size, const char* name) {
   if constexpr (IsScalarView<Q>::value) require_size(quantity, size, name);

@@ -18,9 +18,8 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// The deformation gradient F of the particles of one block by \paper{11}, the minimiser of the
-/// error functional of \paper{9} as \paper{10} asks. Written in displacements u = x - x0, in which it
-/// reads F = 1 + [sum (u_j - u_i) (x) r0 w] A^-1.
+/// The deformation gradient F (\paper{11}) of the particles of one block: the minimiser of the error functional of
+/// \paper{9} by \paper{10}. In displacements u = x - x0 it is F = 1 + [sum (u_j - u_i) (x) r0 w] A^-1.
 template <Bonds B, class K = typename B::Scalar, int D = B::dimension>
 [[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> deformation_gradient_lanes(
     const B& bonds, std::size_t block, const typename B::template Slots<std::size_t{D}>& displacement,
@@ -48,8 +47,8 @@ template <Bonds B, class K = typename B::Scalar, int D = B::dimension>
 
 }  // namespace detail
 
-/// The estimator alone: writes F (\paper{11}) of every particle at positions `x` (m) into `F`. Throws
-/// `InputError` for views of the wrong size.
+/// Writes the deformation gradient F (\paper{11}) of every particle at positions `x` (m) to `F`. Throws `InputError`
+/// for views of the wrong size.
 template <Bonds B, class X, class T, int D = B::dimension, Executor E = Serial>
 void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const MatrixView<T, D>& F, const E& execute = {}) {
   require_size(x, bonds.size(), "positions");

@@ -26,8 +26,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The energies of a body by the `N` terms of its force, in the order in which they were named, in J (in two dimensions
-/// per metre of thickness). Terms that keep no energy, such as viscosity, have zero.
+/// The energies of a body, for each of the `N` terms of its force in the order of the arguments, in J (in two
+/// dimensions per metre of thickness). Terms without an energy, such as viscosity, have zero.
 template <std::size_t N>
 struct ForceEnergy {
   std::array<double, N> of_term{};
@@ -35,8 +35,8 @@ struct ForceEnergy {
   [[nodiscard]] double total() const { return std::accumulate(of_term.begin(), of_term.end(), 0.0); }
 };
 
-/// One particle as the energy of a term sees it, in double: `term.energy(particle)` is an energy per reference volume
-/// in J/m3. As a `OneParticle` it gives parameters, `particle(view)`. A term that is a `PairTerm` has instead
+/// One particle, in double, as the argument of the energy of a term: `term.energy(particle)` is an energy per reference
+/// volume in J/m3. Like any `OneParticle` it returns parameters, `particle(view)`. A `PairTerm` instead has
 /// `term.energy(bond)`, of a `BondState<double, D>`, whose derivative with respect to |r| is the tension; each bond
 /// counts once.
 template <Bonds B>
@@ -65,7 +65,7 @@ class ParticleState : public OneParticle {
     return sum;
   }
 
-  /// theta of `MeanDilatation`. Throws `InputError` in a force without a term of the mean dilatation.
+  /// theta of `MeanDilatation`. Throws `InputError` if the force has no term of the mean dilatation.
   [[nodiscard]] double mean_dilatation() const {
     require(!theta_.empty(),
             "hmps: an energy asks for the mean dilatation in a force without such a term; give it pressure(...)");
@@ -90,7 +90,7 @@ class ParticleState : public OneParticle {
 
 namespace detail {
 
-/// The energy of `term` per volume of one particle in J/m3; zero if it keeps none.
+/// The energy of `term` per volume of one particle in J/m3; zero for terms without an energy.
 template <class Term, Bonds B>
 [[nodiscard]] double energy_of_term(const Term& term, const ParticleState<B>& particle) {
   using K = typename B::Scalar;

@@ -8,14 +8,15 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Any force, to be chosen at run time: holds what `internal_force` returns, or a lambda that calls several forces, for
-/// state in the scalar `T`. `stable_step` and `relax` take it as any other force. A call costs one indirection.
+/// Holds any force, to choose one at run time: the result of `internal_force`, or a lambda that calls several forces,
+/// for a state in the scalar type `T`. `stable_step` and `relax` accept it like any other force. A call costs one
+/// indirection.
 ///
 ///     hmps::ForceFunction<double, 3> force = hmps::internal_force(bonds, hmps::elastic(law));
 ///     if (damped) force = hmps::internal_force(bonds, hmps::elastic(law), hmps::viscous(rho, nu));
 ///     force(x, v, f);
 ///
-/// The bonds that the force refers to must outlive it.
+/// The bonds of the force must outlive it.
 template <class T, int D>
 using ForceFunction =
     std::function<void(const VectorView<const T, D>& x, const VectorView<const T, D>& v, const VectorView<T, D>& f)>;

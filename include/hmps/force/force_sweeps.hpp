@@ -58,7 +58,7 @@ class ForceSweeps {
            pressure_.bytes() + scales_.bytes();
   }
 
-  /// Brings the state of the particles of `block` to the slots.
+  /// Copies the state of the particles of `block` to the slots.
   template <class X, class V>
   HMPS_INLINE void stage_state(const B& bonds, std::size_t block, const VectorView<X, D>& x, const VectorView<V, D>& v,
                                const Vector<double, D>& common) {
@@ -72,7 +72,7 @@ class ForceSweeps {
     }
   }
 
-  /// First of the sweeps that the mean dilatation needs: F, kept where the coupling will be, and d (J - 1).
+  /// First sweep of the mean dilatation: F, stored in the memory of the coupling, and d (J - 1).
   void dilate(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const Matrix<T, D> F =
@@ -80,7 +80,7 @@ class ForceSweeps {
     for (int k = 0; k < D * D; ++k) coupling_.keep(static_cast<std::size_t>(k), slot, F(k % D, k / D));
     dilatation_.keep(0, slot, scales_.lanes(0, slot) * (determinant(F) - T(1)));
   }
-  /// Second of them: d U'(theta).
+  /// Second sweep of the mean dilatation: d U'(theta).
   void press(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
@@ -99,7 +99,7 @@ class ForceSweeps {
     const T d = scales_.lanes(0, slot);
     pressure_.keep(0, slot, d * (d * detail::sum_over_neighbourhood(bonds, block, dilatation_)));
   }
-  /// What the particles of `block` carry to their bonds.
+  /// Computes the coupling of the particles of `block`.
   void couple(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     displacement_.prefetch(bonds.last_slot(block) + ahead);
@@ -210,7 +210,7 @@ class ForceSweeps {
     }
   }
 
-  /// Adds what M and c of both ends give along one bond, in displacements.
+  /// Adds the contribution of M and c of both ends along one bond, in displacements.
   template <class Row>
   HMPS_INLINE void add_coupled(const Row& bond, const T& c, const Vector<T, D>& u, Vector<T, D>& force) const {
     const T w = bond.weight();
@@ -223,7 +223,7 @@ class ForceSweeps {
     const auto carried = [&](int row, int col) HMPS_INLINE_LAMBDA {
       return coupling[static_cast<std::size_t>(row + D * col)] * bond.offset(col);
     };
-    // What a bond pulls is apart from the sum of all bonds, so that one need not wait for the one before.
+    // The force of a bond is computed apart from the sum, so that bonds need not wait for each other.
     if constexpr (Row::skips) {
       Vector<T, D> pull;
       for (int row = 0; row < D; ++row) pull[row] = stretched(row);
@@ -240,7 +240,7 @@ class ForceSweeps {
     }
   }
 
-  /// Adds what the pair terms give along one bond. Two particles at one place have no direction, and no such force.
+  /// Adds the pair terms along one bond. Coincident particles define no direction and exert no such force.
   template <class Row>
   HMPS_INLINE void pull(const Row& bond, const Vector<T, D>& u, Vector<T, D>& force) const {
     const auto neighbour = bond.gather(displacement_);
@@ -264,7 +264,7 @@ class ForceSweeps {
     return F;
   }
 
-  /// How far ahead of what a block needs memory is asked for: some hundred nanoseconds of work.
+  /// Prefetch distance in slots: some hundred nanoseconds of work.
   static constexpr std::size_t ahead = 4 * B::width;
 
   std::tuple<Terms...> terms_;

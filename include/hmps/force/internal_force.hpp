@@ -22,21 +22,20 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the
-/// deformation gradient and what follows from it, one for the sum in `Coupling`. A term that is not
-/// named is not computed; where no term couples, the first sweep is left out, where none damps, no
-/// velocity is read. A term of the mean dilatation adds two sweeps of one number per bond, `mean_dilatation<2>` four;
-/// pair terms and body forces join the last sweep.
+/// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the deformation gradient
+/// and what depends on it, one for the sum in `Coupling`. Terms that are not named cost nothing: without a coupling
+/// term the first sweep is omitted, without a damping term velocities are not read. A term of the mean dilatation adds
+/// two sweeps with one number per bond, `mean_dilatation<2>` four; pair terms and body forces join the last sweep.
 ///
-/// `internal_force` makes one. Its type can be written out, for a member of a class, say:
+/// `internal_force` makes one. Its type can be written out, for example for a member of a class:
 ///
 ///     hmps::InternalForce<hmps::LatticeBonds<double, 3>, hmps::Elastic<hmps::MooneyRivlin<>>, hmps::Viscous> force;
 ///
-/// `ForceFunction` holds any of them, to be chosen at run time.
+/// `ForceFunction` holds any of them, to choose one at run time.
 ///
-/// Refers to the bonds, which must outlive it and may be moved (in a `std::vector` of bodies, say), and keeps scratch
-/// memory, but no state: one object serves any number of states in turn (not at the same time). `restrict_to` leaves
-/// out what only particles with a forced displacement would need.
+/// Refers to the bonds, which must outlive the force and may be moved (for example in a `std::vector` of bodies). Holds
+/// scratch memory, but no state: one object serves any number of states, one at a time. `restrict_to` omits what only
+/// particles with forced displacement would need.
 template <Bonds B, class... Terms>
 class InternalForce {
  public:
@@ -51,14 +50,14 @@ class InternalForce {
   static constexpr bool dilates = Sweeps::dilates, couples = Sweeps::couples, damps = Sweeps::damps;
 
  public:
-  /// Throws `InputError` for bonds of no particle, and where a term does, as for a view of another number of particles.
+  /// Throws `InputError` for bonds without particles and if a term refuses them, for example because it holds a view of
+  /// the wrong size.
   explicit InternalForce(const B& bonds, Terms... terms)
       : followed_(bonds), bonds_(&bonds), sweeps_(bonds, std::move(terms)...) {}
 
-  /// Evaluates from now on only what the particles need for which `moves(i)` holds: those that follow the force. What
-  /// is written for the others, if anything, means nothing; terms such as `record` see the particles that move, those
-  /// that they are bonded to, and what shares a block with either. Particles deep in a region whose motion is
-  /// prescribed cost nothing but their place then.
+  /// From now on, evaluates only what the particles with `moves(i)` need, i.e. those that follow the force. The forces
+  /// of the others are unspecified. Terms such as `record` see the particles that move, those bonded to them, and the
+  /// rest of their blocks. Particles deep inside a region with prescribed motion then cost no time.
   template <class Moves>
   requires std::predicate<Moves&, std::size_t>
   void restrict_to(Moves&& moves) {
@@ -66,9 +65,9 @@ class InternalForce {
     restricted_.restrict_to(*bonds_, moves, Sweeps::means);
   }
 
-  /// WRITES the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s)
-  /// to `f`. Throws `InputError` for views of the wrong size; does not look at values: what is not
-  /// finite reaches the neighbours and others of their blocks.
+  /// WRITES the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s) to `f`. Throws
+  /// `InputError` for views of the wrong size. Does not check values: a NaN spreads to neighbours and to other
+  /// particles of their blocks.
   template <class X, class V, class F, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                   const E& execute = {}) {
@@ -84,8 +83,8 @@ class InternalForce {
     (*this)(x, x, f, execute);
   }
 
-  /// ADDS the force density (N/m3) of every particle to `f`, as a second force on the same particles. Throws as the
-  /// call that writes does.
+  /// ADDS the force density (N/m3) of every particle to `f`, for example as a second force on the same particles.
+  /// Throws as the call that writes does.
   template <class X, class V, class F, Executor E = Serial>
   void add(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const E& execute = {}) {
     require_forces(x, v, f);
@@ -95,10 +94,10 @@ class InternalForce {
     });
   }
 
-  /// Adds to the velocities `v` (m/s) what the forces give in the time `dt` (s), \paper{2}: what evaluation and `kick`
-  /// do one after the other, in the last sweep itself, so that no array of forces is written or read. Density `rho` in
-  /// kg/m3: a number, a view or a callable. After `restrict_to`, velocities of particles that do not follow the force
-  /// mean nothing until they are prescribed. Throws `InputError` as those two do.
+  /// Adds the effect of the forces over the time `dt` (s) to the velocities `v` (m/s), \paper{2}: equivalent to
+  /// evaluation and `kick`, but within the last sweep, without an array of forces. Density `rho` in kg/m3: a number, a
+  /// view or a callable. After `restrict_to`, the velocities of particles that do not follow the force are unspecified
+  /// until they are prescribed. Throws `InputError` as those two do.
   template <class X, class V, PerParticle Rho, Executor E = Serial>
   void kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& rho, double dt, const E& execute = {}) {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
@@ -107,7 +106,7 @@ class InternalForce {
     require_sizes(x, v);
     require_apart(v, "velocities", x, "positions");
     detail::require_step(dt);
-    // Other blocks read the velocities of the staged copy, so that these may change while they do.
+    // Other blocks read the staged copy of the velocities, so these may change meanwhile.
     evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
       detail::deliver(*bonds_, block, v, force, [&](V& velocity, K density, std::size_t i) HMPS_INLINE_LAMBDA {
         detail::kick(velocity, density, at_particle(rho, i), dt);
@@ -115,14 +114,14 @@ class InternalForce {
     });
   }
 
-  /// The energies of the terms at positions `x` (m), in J, of which the force is minus the gradient: with a law and
-  /// `mean_dilatation` beside each other, that of either with its own bulk modulus. Summed in double, in an order that
-  /// does not depend on the executor; for diagnostics, not for every step. With `restrict_to` it is that of all
-  /// particles all the same.
+  /// The energies of the terms at positions `x` (m), in J; the force is minus the gradient of their sum. With a law and
+  /// `mean_dilatation` together, each has the energy of its own bulk modulus. Summed in double, in an order that does
+  /// not depend on the executor. For diagnostics, not for every step. Ignores `restrict_to`: always the energy of all
+  /// particles.
   ///
   /// @param volume  of a particle in the reference configuration in m^D, l0^D on a lattice: a number, a view or a
   ///                callable
-  /// Throws `InputError` for views of the wrong size and a volume that is not positive. A term of the user's needs an
+  /// Throws `InputError` for views of the wrong size and a volume that is not positive. A term of your own needs an
   /// energy of its own: see `ParticleState`.
   template <class X, PerParticle Vol, Executor E = Serial>
   [[nodiscard]] ForceEnergy<sizeof...(Terms)> energy(const VectorView<X, D>& x, const Vol& volume,
@@ -135,7 +134,7 @@ class InternalForce {
     return detail::energies(now, sweeps_.terms(), scales, x, volume, execute);
   }
 
-  /// The bonds, wherever they are now. Throws `InputError` if they are no more.
+  /// The bonds at their current address. Throws `InputError` if they no longer exist.
   [[nodiscard]] const B& bonds() const { return followed_.now(); }
   /// Bytes of scratch memory.
   [[nodiscard]] std::size_t bytes() const { return sweeps_.bytes() + restricted_.bytes(); }
@@ -155,8 +154,8 @@ class InternalForce {
     require_apart(f, "forces", v, "velocities");
   }
 
-  /// All sweeps at positions `x` and velocities `v`; the last calls `take(block, force)` with what gives the lanes of
-  /// each component of the force density.
+  /// Runs all sweeps at positions `x` and velocities `v`. The last one calls `take(block, force)`; `force(d)` returns
+  /// the lanes of component d of the force density.
   template <class X, class V, class E, class Take>
   void evaluate(const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
     const B& now = *bonds_;
@@ -175,21 +174,21 @@ class InternalForce {
   }
 
   detail::FollowedBonds<B> followed_;
-  const B* bonds_;  // where they were last seen
+  const B* bonds_;  // their address at the last call
   Sweeps sweeps_;
   detail::RestrictedBlocks<B> restricted_;
 };
 
-/// The internal force of the body held together by `bonds`, made of `terms`:
-/// `internal_force(bonds, elastic(law), artificial(E_hat), viscous(rho, nu))`.
+/// The internal force of the body with the bonds `bonds`, composed of `terms`: `internal_force(bonds, elastic(law),
+/// artificial(E_hat), viscous(rho, nu))`.
 template <Bonds B, class... Terms>
 [[nodiscard]] InternalForce<B, Terms...> internal_force(const B& bonds, Terms... terms) {
   return InternalForce<B, Terms...>(bonds, std::move(terms)...);
 }
-/// What is no `Bonds` is refused in words.
+/// Reports a type that does not model `Bonds` by name.
 template <class B, class... Terms>
 requires(!Bonds<B>) detail::RequireBonds<B> internal_force(const B& bonds, Terms... terms);
-/// The bonds are referred to, not copied: they must outlive the force.
+/// The force refers to the bonds, which must outlive it.
 template <Bonds B, class... Terms>
 void internal_force(const B&& bonds, Terms... terms) = delete;
 

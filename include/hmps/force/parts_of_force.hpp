@@ -11,8 +11,8 @@ namespace hmps::inline HMPS_ABI::detail {
 
 template <class Term, class K, int D>
 struct IsTerm : std::bool_constant<ForceTerm<Term, K, D>> {};
-/// Fails where `Term` is no term of a force, or holds a law that is none, with its name in the first line of the
-/// message.
+/// Fails to compile if `Term` is not a term of a force, or holds a type that is not a law; the first line of the
+/// message names it.
 template <class Term, class K, int D>
 struct RequireTerm {
   static_assert(IsTerm<Term, K, D>::value,
@@ -26,7 +26,7 @@ struct RequireTerm<Term, K, D> {
   static constexpr bool value = Term::template serves<K, D>();
 };
 
-/// What a set of terms asks for.
+/// What a set of terms needs.
 template <class K, int D, class... Terms>
 struct PartsOfForce {
   static constexpr bool dilates = (DilatationTerm<Terms, K, D> || ...);

@@ -17,25 +17,25 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A pressure on the surface of a body that follows its deformation. In the reference configuration each particle near
+/// A pressure on the surface of a body that follows its deformation. In the reference configuration, each particle near
 /// the surface has an outward area per volume, in 1/m,
 ///
 ///     b_i = - sum_j w_ij (A_i^-1 + A_j^-1) r0_ij,
 ///
 /// the force density with which a uniform unit stress would be in equilibrium on these bonds; it vanishes inside. A
-/// pressure p (Pa) pushes with
+/// pressure p (Pa) exerts
 ///
 ///     f_i = - p J F^-T b_i = - p cof(F_i) b_i
 ///
-/// (Nanson's formula), so that a body under the same pressure all around is in equilibrium exactly. The areas of one
-/// face lie on all particles within the effective radius of it, with that of \paper{8} two layers, and add up to the
-/// area of the face. A particle near an edge has the areas of both faces.
+/// (Nanson's formula), so that a body under uniform pressure is in exact equilibrium. The area of a face is distributed
+/// over all particles within the effective radius of it, two layers with that of \paper{8}, and adds up to the area of
+/// the face. A particle near an edge has the areas of both faces.
 template <int D>
 class Pressure {
  public:
-  /// On the particles of `loaded`, which should hold all of those near the loaded face that carry its area: with the
-  /// paper's radius the two outermost layers. `bonds` are needed only now. Throws `InputError` for a set of another
-  /// number of particles, and for one of which no particle is near a surface.
+  /// Loads the particles of `loaded`, which should contain all particles that carry the area of the loaded face: with
+  /// the paper's radius the two outermost layers. `bonds` are used only in the constructor. Throws `InputError` if the
+  /// set has the wrong size or contains no particle near a surface.
   template <Bonds B>
   requires(B::dimension == D) Pressure(const B& bonds, const ParticleSet& loaded)
       : size_(bonds.size()), particles_(loaded.indices()), area_(particles_.size(), Vector<double, D>::Zero()) {
@@ -56,8 +56,8 @@ class Pressure {
             " particles under pressure is near a surface; name those of the outermost layers");
   }
 
-  /// Adds the force density (N/m3) of the pressure `p` (Pa, positive where it pushes inwards) at the deformation
-  /// gradients `F` to `f`. Throws `InputError` for views of the wrong size and a pressure that is not finite.
+  /// Adds the force density (N/m3) of the pressure `p` (Pa, positive if it pushes inwards) at the deformation gradients
+  /// `F` to `f`. Throws `InputError` for views of the wrong size and a pressure that is not finite.
   template <class M, class T, Executor E = Serial>
   void add(const MatrixView<M, D>& F, const VectorView<T, D>& f, double p, const E& execute = {}) const {
     require_size(F, size_, "deformation gradients");
@@ -70,8 +70,8 @@ class Pressure {
     });
   }
 
-  /// The outward area of the loaded particles in the reference configuration in m2 (in two dimensions m), each of
-  /// `volume` (m^D): of a plane face its area along its normal, of a closed surface zero.
+  /// The outward area vector of the loaded particles in the reference configuration in m2 (in two dimensions m), where
+  /// each has `volume` (m^D): for a plane face its area along its normal, for a closed surface zero.
   [[nodiscard]] Vector<double, D> area(double volume) const {
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const auto& own : area_) sum += own * volume;

@@ -14,8 +14,7 @@ namespace hmps::inline HMPS_ABI::detail {
 template <Bonds B>
 class RestrictedBlocks {
  public:
-  /// Visits from now on what the particles need for which `moves(i)` holds. `means`: how often their mean
-  /// dilatation is taken.
+  /// From now on, visits only what the particles with `moves(i)` need. `means`: how often the mean dilatation is taken.
   template <class Moves>
   void restrict_to(const B& bonds, Moves&& moves, int means) {
     std::vector<char> moving(bonds.size());
@@ -30,7 +29,7 @@ class RestrictedBlocks {
     restricted_ = true;
   }
 
-  /// Calls `visit(block)` for the blocks that a sweep of the mean dilatation has to visit.
+  /// Calls `visit(block)` for the blocks that a sweep of the mean dilatation must visit.
   template <class E, class Visit>
   void dilated(const B& bonds, const E& execute, Visit&& visit) const {
     sweep(bonds, dilated_, execute, visit);
@@ -50,7 +49,7 @@ class RestrictedBlocks {
   }
 
  private:
-  /// The blocks with a particle that is marked.
+  /// The blocks that contain a marked particle.
   [[nodiscard]] static std::vector<Index> blocks_of(const B& bonds, const std::vector<char>& marked) {
     std::vector<char> found(bonds.block_count(), 0);
     for (std::size_t i = 0; i < marked.size(); ++i)
@@ -60,7 +59,7 @@ class RestrictedBlocks {
       if (found[block]) blocks.push_back(static_cast<Index>(block));
     return blocks;
   }
-  /// Marks the neighbours of what is marked too.
+  /// Marks the neighbours of all marked particles too.
   static void with_neighbours(const B& bonds, std::vector<char>& marked) {
     const std::vector<char> before = marked;
     for (std::size_t i = 0; i < before.size(); ++i)

@@ -50,7 +50,7 @@ template <class T>
 [[nodiscard]] T isochoric_excess(const Matrix<T, 3>& M, const T& root) {
   const T tr = trace(M), mean = tr * T(1.0 / 3.0);
   Matrix<T, 3> d = M;
-  // Differences of the diagonal, so that a common part cancels before it rounds.
+  // Uses differences of the diagonal, so that a common part cancels before rounding.
   d(0, 0) = ((M(0, 0) - M(1, 1)) + (M(0, 0) - M(2, 2))) * T(1.0 / 3.0);
   d(1, 1) = ((M(1, 1) - M(0, 0)) + (M(1, 1) - M(2, 2))) * T(1.0 / 3.0);
   d(2, 2) = ((M(2, 2) - M(0, 0)) + (M(2, 2) - M(1, 1))) * T(1.0 / 3.0);

@@ -14,7 +14,8 @@
 namespace hmps::inline HMPS_ABI {
 
 namespace detail {
-/// An Eigen matrix or expression of `D` by `D` numbers `T`: Eigen itself converts first and complains later.
+/// An Eigen matrix or expression with `D` by `D` numbers `T`. Without this check, Eigen would convert first and fail
+/// later.
 template <class M, class T, int D>
 concept TensorLike = std::same_as<typename std::remove_cvref_t<M>::Scalar, T> &&
                      std::remove_cvref_t<M>::RowsAtCompileTime == D&& std::remove_cvref_t<M>::ColsAtCompileTime == D;
@@ -60,8 +61,8 @@ struct RequireLaw {
 };
 }  // namespace detail
 
-/// The law also knows its energy: `law.energy(C, J)` of a hyperelastic law, `law.energy(F)` of a
-/// law of the deformation gradient, in J/m3. Only diagnostics ask for it.
+/// A law with an energy: `law.energy(C, J)` of a hyperelastic law, `law.energy(F)` of a law of the deformation
+/// gradient, in J/m3. Only diagnostics need it.
 template <class Law, class T = double, int D = 3>
 concept LawWithEnergy = ConstitutiveLaw<Law, T, D> &&(
     requires(const Law& law, const Matrix<T, D>& C, const T& J) {

@@ -12,9 +12,8 @@ namespace hmps::inline HMPS_ABI {
 ///
 ///     W = lambda / 2 (tr e)^2 + mu e : e,    dW/dF = lambda tr(e) I + 2 mu e
 ///
-/// for problems of small strain and small rotation, and for comparison with linear theory: a finite
-/// rotation strains it. It is a law of the deformation gradient, since C has forgotten the
-/// rotation. Two dimensions are plane strain.
+/// for small strains and rotations, and for comparison with linear theory: a finite rotation causes strain. It is a law
+/// of the deformation gradient, because C does not contain the rotation. In two dimensions, plane strain.
 template <class P = double>
 struct LinearElastic {
   P lambda;  ///< first Lame constant in Pa

@@ -11,8 +11,8 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-/// Particles that are held, or that have one component of their velocity fixed: to be called after the last kick and
-/// before the drift. For particles that move as prescribed see `ControlRegion`.
+/// Particles that are held, or have one velocity component prescribed. Call these after the last kick and before the
+/// drift. For particles with prescribed motion see `ControlRegion`.
 namespace hmps::inline HMPS_ABI {
 
 /// Sets the velocities `v` (m/s) of the particles of `held` to zero: a clamp. Throws `InputError` for a set of another
@@ -38,9 +38,9 @@ void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, d
   for (const Index i : held) v(i, c) = static_cast<S>(velocity);
 }
 
-/// Takes the component along `normal` (of any length but zero) from the velocities `v` (m/s) of the particles of
+/// Removes the component along `normal` (of any nonzero length) from the velocities `v` (m/s) of the particles of
 /// `held`: a plane of symmetry or a frictionless guide at any angle. Throws `InputError` for a normal that is zero or
-/// not finite and for a set of another number of particles.
+/// not finite and for a set of the wrong size.
 template <class V, int D, class Derived>
 void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen::MatrixBase<Derived>& normal) {
   require_size(v, held.scene_size(), "velocities");

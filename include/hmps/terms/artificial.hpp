@@ -21,9 +21,8 @@ template <class T>
   return modulus * T(dimension) * inverse_shape_trace;
 }
 
-/// Kondo's artificial potential force, \paper{19}: pulls each neighbour to where the deformation
-/// gradient would have it, so that the motions that F does not see cost energy. In the terms of
-/// `Coupling`: M -= C F and c += C.
+/// Kondo's artificial potential force, \paper{19}: pulls each neighbour towards the position that the deformation
+/// gradient predicts, so that motions that F does not resolve cost energy. In terms of `Coupling`: M -= C F and c += C.
 ///
 /// `Modulus` is E_hat in Pa: a number, a `ScalarView`, or a callable, `[&](const auto& at) { return 2 * at(mu); }`.
 template <class Modulus>
@@ -46,11 +45,11 @@ struct Artificial {
     return artificial_coefficient(own, Particle::dimension, particle.inverse_shape_trace()) * 0.5 * particle.misfit();
   }
 
-  /// Throws `InputError` if the modulus is a view of another number of particles.
+  /// Throws `InputError` if the modulus is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(modulus, size, "moduli of the artificial force"); }
 };
 
-/// Kondo's stabiliser with E_hat = `modulus` in Pa (the paper: Young's modulus by \paper{18}): a number, a view or a
+/// Kondo's stabiliser with E_hat = `modulus` in Pa (in the paper Young's modulus by \paper{18}): a number, a view or a
 /// callable. Throws `InputError` for a number that is negative or not finite.
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {

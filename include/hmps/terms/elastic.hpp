@@ -46,8 +46,8 @@ struct Elastic {
   }
 };
 
-/// The elastic force of a body made of `law`, \paper{13}, as a term of `internal_force`. Throws
-/// `InputError` for a law whose moduli are not positive, where the law can tell.
+/// The elastic force of a body made of `law`, \paper{13}, as a term of `internal_force`. Throws `InputError` for a law
+/// with moduli that are not positive, if the law validates itself.
 template <class Law>
 [[nodiscard]] Elastic<Law> elastic(Law law) {
   if constexpr (requires { law.validate(); }) law.validate();

@@ -16,8 +16,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The weight of the particles, the force density rho g: a term of `internal_force`, which adds it in its last sweep,
-/// so that `InternalForce::kick`, `relax` and `stable_step` see it as well; or alone, by `add`.
+/// The weight of the particles, the force density rho g. As a term of `internal_force` it joins the last sweep, so that
+/// `InternalForce::kick`, `relax` and `stable_step` include it. `add` applies it alone.
 ///
 /// `Rho` is the density in kg/m3: a number, a `ScalarView` or a callable.
 template <PerParticle Rho, int D>
@@ -39,11 +39,11 @@ struct Gravity {
     return -static_cast<double>(detail::value_at(density, particle)) * acceleration.dot(particle.position);
   }
 
-  /// Throws `InputError` if the density is a view of another number of particles.
+  /// Throws `InputError` if the density is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(density, size, "densities of gravity"); }
 
-  /// Adds the weight to the force densities `f` (N/m3), for a scene whose forces are not all of one `internal_force`.
-  /// Throws `InputError` for a density that is not positive, or of another number of particles.
+  /// Adds the weight to the force densities `f` (N/m3), for scenes whose forces are not all in one `internal_force`.
+  /// Throws `InputError` for a density that is not positive or has the wrong size.
   template <class F, Executor E = Serial>
   void add(const VectorView<F, D>& f, const E& execute = {}) const {
     require_view(f, "force densities");

@@ -18,29 +18,29 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Resists the change of volume of neighbourhoods instead of that of each particle, so that thin and nearly
-/// incompressible bodies bend as they should (mean dilatation: Nagtegaal, Parks and Rice 1974 for finite elements).
+/// Resists volume changes of neighbourhoods instead of single particles, so that thin, nearly incompressible bodies
+/// bend correctly (mean dilatation; for finite elements: Nagtegaal, Parks and Rice 1974).
 ///
 /// A particle and its bonded neighbours have the mean dilatation
 ///
 ///     theta_i = d_i sum_k d_k (J_k - 1),    J = det F,  k = i and its neighbours
 ///
-/// and the body the energy V sum_i U(theta_i), here U = K theta^2 / 2. Its gradient is the force of a pressure that
-/// is averaged in the same way,
+/// and the body has the energy V sum_i U(theta_i), here with U = K theta^2 / 2. Its gradient is the force of a pressure
+/// averaged in the same way,
 ///
 ///     M_i += p_i cof(F_i) A_i^-1,           p_i = d_i sum_k d_k U'(theta_k)
 ///
-/// (see `Coupling`), so that momentum, angular momentum and energy are kept as they are by \paper{13}. The d are such
-/// that d_i sum_k d_k = 1 everywhere, also at surfaces (Sinkhorn 1967): means of what is uniform are the same, and a
-/// uniform pressure too is left as it is.
+/// (see `Coupling`), so that momentum, angular momentum and energy are conserved as by \paper{13}. The factors d
+/// satisfy d_i sum_k d_k = 1 everywhere, also at surfaces (Sinkhorn 1967): averaging preserves uniform dilatation and
+/// uniform pressure.
 ///
-/// The law of the particles keeps a bulk modulus of its own, which resists changes of J from one particle to the next;
-/// those of law and mean add up in what is larger than a neighbourhood. `split_bulk_modulus` shares one out.
+/// The law of the particles keeps a bulk modulus of its own, which resists changes of J from particle to particle. For
+/// deformations larger than a neighbourhood the two moduli add up. `split_bulk_modulus` divides a given one.
 ///
 /// With two `means`, the mean is taken twice: theta_i = d_i sum_k d_k theta'_k, where theta' is the mean above, and the
-/// pressure likewise. In walls of two layers that lie on no lattice, the means of both sides differ by a fifth of the
-/// change that bending causes, so that nearly incompressible walls still lock; taken twice, by a thirtieth (see
-/// `thin_wall_stabiliser`).
+/// pressure likewise. In walls of two layers that lie on no lattice, the means of the two sides differ by a fifth of
+/// the change that bending causes, so that nearly incompressible walls still lock; taken twice, they differ by a
+/// thirtieth (see `thin_wall_stabiliser`).
 template <class Bulk, int Means = 1>
 struct MeanDilatation {
   static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
@@ -62,18 +62,18 @@ struct MeanDilatation {
     return static_cast<double>(detail::value_at(bulk, particle)) * 0.5 * theta * theta;
   }
 
-  /// Throws `InputError` if the bulk modulus is a view of another number of particles.
+  /// Throws `InputError` if the bulk modulus is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(bulk, size, "bulk moduli of mean_dilatation"); }
 };
 
-/// A bulk modulus in Pa shared between the law of the particles and `mean_dilatation`.
+/// A bulk modulus in Pa, divided between the law of the particles and `mean_dilatation`.
 template <class P>
 struct SplitBulkModulus {
   P law, mean;
 };
 
-/// Leaves `shear_modulus` (Pa) twice to the law, which is Poisson's ratio 0.29, and the rest of `bulk_modulus` (Pa) to
-/// the mean dilatation. More in the law makes sheets of two particles too stiff, less makes those of three and more too
+/// Gives the law twice `shear_modulus` (Pa), i.e. Poisson's ratio 0.29, and the rest of `bulk_modulus` (Pa) to the mean
+/// dilatation. With more in the law, sheets of two particles are too stiff; with less, those of three and more are too
 /// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive.
 template <class P>
 [[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
@@ -85,10 +85,10 @@ template <class P>
   return {law, bulk_modulus - law};
 }
 
-/// The term of `internal_force` that resists the mean dilatation with the bulk modulus `bulk` in Pa: a number, a view
-/// or a callable. Throws `InputError` for a number that is negative or not finite. `mean_dilatation<2>(bulk)` takes the
-/// mean twice, which costs two more sweeps of one number per bond; all terms of the mean dilatation in a force must
-/// take it equally often.
+/// The mean dilatation as a term of `internal_force`, with the bulk modulus `bulk` in Pa: a number, a view or a
+/// callable. Throws `InputError` for a number that is negative or not finite. `mean_dilatation<2>(bulk)` takes the mean
+/// twice, which costs two more sweeps with one number per bond. All terms of the mean dilatation in a force must take
+/// it equally often.
 template <int Means = 1, class Bulk>
 [[nodiscard]] MeanDilatation<Bulk, Means> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)
@@ -115,7 +115,8 @@ template <class B, class K = typename B::Scalar>
 template <class B, class K = typename B::Scalar>
 [[nodiscard]] typename B::template Slots<1> neighbourhood_scales(const B& bonds) {
   using T = Lanes<K>;
-  // An iteration leaves about two thirds of the error, in boxes, sheets, bars and clouds: 25 for float, 70 for double.
+  // An iteration reduces the error to about two thirds, in boxes, sheets, bars and clouds: 25 iterations for float, 70
+  // for double.
   constexpr int most_iterations = 100;
   typename B::template Slots<1> scales(bonds.slot_count()), next(scales);
   for (std::size_t slot = 0; slot < bonds.slot_count(); ++slot) scales(0, slot) = K(1);

@@ -11,13 +11,13 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A term of `internal_force` that adds no force but writes the deformation gradient of every
-/// particle into the user's array as the first sweep passes, for contact and diagnostics.
+/// A term of `internal_force` without a force: the first sweep writes the deformation gradient of every particle to the
+/// user's array, for contact and diagnostics.
 template <class T, int D>
 struct Record {
   MatrixView<T, D> target;
 
-  /// Throws `InputError` unless `target` has a place for each of `size` particles.
+  /// Throws `InputError` unless `target` holds `size` particles.
   void check(std::size_t size) const { require_size(target, size, "deformation gradients to record"); }
 
   template <class K>
@@ -26,15 +26,15 @@ struct Record {
     detail::deliver(particles.blocks(), particles.block(), target, [&](int k) { return F(k % D, k / D); });
   }
 
-  /// None: nothing pulls.
+  /// Zero: this term exerts no force.
   template <class Particle>
   [[nodiscard]] double energy(const Particle&) const {
     return 0;
   }
 };
 
-/// Records deformation gradients into `target`, one per particle of the bonds: `internal_force` throws `InputError` for
-/// another number.
+/// Writes deformation gradients to `target`, one per particle of the bonds; `internal_force` throws `InputError` for
+/// any other size.
 template <class T, int D>
 [[nodiscard]] Record<T, D> record(const MatrixView<T, D>& target) {
   return {target};

@@ -5,16 +5,17 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The E_hat of \paper{20} at which the lattice carries long shear waves best: 4/3 of the shear modulus.
+/// The value of E_hat (\paper{20}) with the best dispersion of long shear waves in the lattice: 4/3 of the shear
+/// modulus.
 ///
-/// Expanded for small k, a transverse plane wave in the lattice has
+/// Expanded for small k, a transverse plane wave in the lattice obeys
 ///
 ///     rho omega^2 = mu g^2 + E_hat (q - g^2),   g = k (1 - m k^2 / 6),   q = k^2 (1 - m k^2 / 12)
 ///
-/// with m the fourth moment of the bonds along the wave over their second. The error is
-/// k^4 m (E_hat / 4 - mu / 3), and vanishes at E_hat = 4 mu / 3 whatever the weight, the effective radius, the
-/// direction and the number of dimensions. The paper takes E, which for Poisson's ratios from 1/3 to 1/2 is 2 to 9/4
-/// times as much; thin walls are then too stiff. See docs/theory.md for what is measured, and where it fails.
+/// where m is the fourth moment of the bonds along the wave divided by their second moment. The error is k^4 m (E_hat /
+/// 4 - mu / 3). It vanishes at E_hat = 4 mu / 3 for every weight, effective radius, direction and dimension. The paper
+/// uses E, which for Poisson's ratios from 1/3 to 1/2 is 2 to 9/4 times as large and makes thin walls too stiff.
+/// docs/theory.md has measurements and limits.
 ///
 ///     artificial(shear_wave_modulus(law.shear_modulus()))
 ///     artificial([&](const auto& at) { return shear_wave_modulus(at(mu)); })    // of each particle

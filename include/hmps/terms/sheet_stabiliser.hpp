@@ -8,17 +8,17 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What `sheet_stabiliser` chooses, in Pa.
+/// The result of `sheet_stabiliser`, in Pa.
 template <class P>
 struct SheetStabiliser {
   P modulus;                 ///< E_hat of \paper{20}, for `artificial`
   SplitBulkModulus<P> bulk;  ///< for the law and for `mean_dilatation`, which is to be left out where its share is zero
 };
 
-/// E_hat and the share of the bulk modulus in a mean dilatation with which a wide sheet of `layers` particles bends
-/// best: within 2 % of the right frequency from three particles on and within 5 % at two, for bulk moduli of 3 to 300
-/// shear moduli. Calibrated against bending waves in infinite sheets with the paper's weight and radius (Rayleigh and
-/// Lamb); docs/theory.md has the table, and tells what bars as narrow as high want instead.
+/// The E_hat and the mean dilatation with which a wide sheet of `layers` particles bends best: with an error of
+/// frequency within 2 % from three particles on and within 5 % at two, for bulk moduli of 3 to 300 shear moduli.
+/// Calibrated against bending waves in infinite sheets (Rayleigh and Lamb) with the paper's weight and radius;
+/// docs/theory.md has the table, and advice for bars as narrow as high.
 ///
 ///     const auto [E_hat, bulk] = sheet_stabiliser(4, law.bulk_modulus(), law.shear_modulus());
 ///

@@ -14,7 +14,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// One block of particles and their parameters, a particle in each lane: what a term sees that needs no deformation.
+/// One block of particles, one per lane, with their parameters: the argument of terms that need no deformation.
 template <class K, int D>
 class BlockParameters {
  public:
@@ -25,7 +25,7 @@ class BlockParameters {
   /// 1 / sum |r0|^2 w in 1/m2, the denominator of \paper{20}.
   [[nodiscard]] HMPS_INLINE T inverse_shape_trace() const { return blocks_.inverse_trace_lanes(block_); }
 
-  /// The particle in `lane`, or `Blocks::none` behind the last one.
+  /// The particle in `lane`, or `Blocks::none` after the last one.
   [[nodiscard]] HMPS_INLINE Index particle(int lane) const {
     return blocks_.particle(block_ * Blocks<K, D>::width + static_cast<std::size_t>(lane));
   }
@@ -33,8 +33,7 @@ class BlockParameters {
   [[nodiscard]] HMPS_INLINE const Blocks<K, D>& blocks() const { return blocks_; }
   [[nodiscard]] HMPS_INLINE std::size_t block() const { return block_; }
 
-  /// A parameter of each particle, from the user's array of one number per particle. Throws
-  /// `InputError` if it has another size.
+  /// A parameter per particle, from the user's array. Throws `InputError` if the array has another size.
   template <class P>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& parameter) const {
     require_size(parameter, blocks_.size(), "parameters");
@@ -46,8 +45,8 @@ class BlockParameters {
     }
     return gather([&](Index i) { return parameter[i]; });
   }
-  /// A parameter of each particle's body: `table[body[i]]`. Throws `InputError` if the bodies have
-  /// another size or one is not in the table.
+  /// A parameter per body: `table[body[i]]`. Throws `InputError` if `body` has another size or an entry is out of the
+  /// table.
   template <class P, class B>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
     require_size(body, blocks_.size(), "bodies");
@@ -66,7 +65,7 @@ class BlockParameters {
     T result;
     for (int l = 0; l < T::width; ++l) {
       const Index i = particle(l);
-      // Empty lanes take the first particle's parameters, with which nothing can go wrong.
+      // Empty lanes take the parameters of the first particle, which are valid.
       result.lane[l] = static_cast<K>(value(i == Blocks<K, D>::none ? particle(0) : i));
     }
     return result;
@@ -76,7 +75,7 @@ class BlockParameters {
   std::size_t block_;
 };
 
-/// One block of particles as a coupling term sees it: parameters, and how each particle is deformed.
+/// One block of particles as the argument of a coupling term: their parameters and their deformation.
 template <class K, int D>
 class BlockOfParticles : public BlockParameters<K, D> {
  public:
@@ -90,9 +89,9 @@ class BlockOfParticles : public BlockParameters<K, D> {
   const Matrix<T, D>& shape_inverse;         ///< A_i^-1 in 1/m2, \paper{12}.
 };
 
-/// A bond as a pair term sees it: what is the same from both ends, and no more. `T` is `Lanes<K>` in a force, one bond
-/// of each particle of a block, and `double` in an energy. Lanes without a bond hold anything; what a term returns for
-/// them is dropped.
+/// A bond as the argument of a pair term: only what is the same from both ends. `T` is `Lanes<K>` in a force, with one
+/// bond of each particle of a block, and `double` in an energy. Lanes without a bond hold arbitrary values; the results
+/// for them are discarded.
 template <class T, int D>
 class BondState {
  public:
@@ -111,7 +110,7 @@ class BondState {
   [[nodiscard]] HMPS_INLINE T reference_length() const { return root(reference_square_); }
   /// |r| in m.
   [[nodiscard]] HMPS_INLINE T length() const { return root(square_); }
-  /// |r| - |r0| in m, without the cancellation of the two.
+  /// |r| - |r0| in m, without cancellation.
   [[nodiscard]] HMPS_INLINE T elongation() const { return rise_ / (length() + reference_length()); }
   /// w, dimensionless.
   [[nodiscard]] HMPS_INLINE T weight() const { return weight_; }
@@ -124,12 +123,12 @@ class BondState {
   T weight_, reference_square_, square_, rise_;
 };
 
-/// What a particle carries to each of its bonds. With M, c of both ends and d of the whole body or the mean of both
-/// ends, every internal force of the paper is one sum (force density in N/m3):
+/// What a particle contributes to each of its bonds. With M and c of both ends, and d of the whole body or the mean of
+/// both ends, every internal force of the paper is one sum (force density in N/m3):
 ///
 ///     f_i = sum_j w_ij [ (M_i + M_j) r0_ij + (c_i + c_j) r_ij + d_ij (v_j - v_i) ]
 ///
-/// It is antisymmetric in i and j, so that the forces sum to zero whatever the terms put in.
+/// It is antisymmetric in i and j, so that the forces sum to zero whatever the terms contribute.
 template <class K, int D>
 struct Coupling {
   Matrix<Lanes<K>, D> M;  ///< Acts on the reference position of the neighbour, in Pa/m2.
@@ -166,31 +165,31 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
   { term.pressure(particles, theta) } -> std::convertible_to<Lanes<K>>;
 };
 
-/// A term that pulls along each bond: `term.tension(bond)`, of a `BlockOfBonds`, is the force density in N/m3 with
-/// which both ends are pulled to each other, negative where they are pushed apart,
+/// A term that pulls along each bond: `term.tension(bond)`, of a `BondState`, is the force density in N/m3 that pulls
+/// the two ends together, negative if it pushes them apart,
 ///
 ///     f_i = sum_j t_ij r_ij / |r_ij|.
 ///
-/// The term itself multiplies by the weight of the bond, where it is to count. It sees of a bond only what is the same
-/// from both ends, and the force lies along the bond, so that momentum and angular momentum are conserved whatever it
-/// returns. t is the derivative of an energy density with respect to |r|, each bond counted once: see `ForceEnergy`.
+/// The term multiplies by the weight of the bond itself, if it should. It receives only what is the same from both
+/// ends, and the force lies along the bond, so that momentum and angular momentum are conserved whatever it returns. t
+/// is the derivative of an energy density with respect to |r|, where each bond counts once: see `ForceEnergy`.
 template <class Term, class K, int D>
 concept PairTerm = requires(const Term& term, const BondState<Lanes<K>, D>& bond) {
   { term.tension(bond) } -> std::convertible_to<Lanes<K>>;
 };
 
-/// A term that acts on each particle from outside: `term.body_force(particles)`, of a `BlockParameters`, is the force
-/// density in N/m3, `Vector<Lanes<K>, D>`. It adds to the momentum of the body. Satisfied by `Gravity`.
+/// An external force on each particle: `term.body_force(particles)`, of a `BlockParameters`, is the force density in
+/// N/m3, `Vector<Lanes<K>, D>`. It changes the momentum of the body. Model: `Gravity`.
 template <class Term, class K, int D>
 concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& particles) {
   { term.body_force(particles) } -> std::convertible_to<Vector<Lanes<K>, D>>;
 };
 
-/// A term of `internal_force`: one or more of the concepts above. A term that holds views of particles has
-/// `term.check(size)` too, which throws `InputError` unless they are views of `size` particles: `internal_force` asks
-/// when it is made. For `InternalForce::energy` a term has `term.energy(bond)` if it is a `PairTerm` and else
-/// `term.energy(particle)`: see `ForceEnergy`. Satisfied by what `elastic`, `artificial`, `viscous`, `mean_dilatation`,
-/// `gravity` and `record` return, and by a user's own struct.
+/// A term of `internal_force`: models one or more of the concepts above. A term that holds views of particles also has
+/// `term.check(size)`, which throws `InputError` unless they have `size` particles; `internal_force` calls it in the
+/// constructor. For `InternalForce::energy`, a `PairTerm` has `term.energy(bond)`, other terms `term.energy(particle)`:
+/// see `ForceEnergy`. Models: the results of `elastic`, `artificial`, `viscous`, `mean_dilatation`, `gravity` and
+/// `record`; a struct of your own.
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||
     DilatationTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;

@@ -17,7 +17,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What `thin_wall_stabiliser` chooses, in Pa.
+/// The result of `thin_wall_stabiliser`, in Pa.
 template <class P>
 struct ThinWallStabiliser {
   std::vector<P> moduli;     ///< E_hat of \paper{20} of each particle, for `artificial`
@@ -26,7 +26,7 @@ struct ThinWallStabiliser {
 
 namespace detail {
 
-/// E_hat over mu with which a wall of `layers` twists as it should; `c` is their distance in spacings.
+/// E_hat / mu for which a wall of `layers` twists correctly; `c` is the distance of the layers in spacings.
 [[nodiscard]] inline double thin_wall_modulus(int layers, double c) {
   const double side = std::sqrt(2 / (std::sqrt(3.0) * c)), rise = side * std::sqrt(0.75), radius = paper_radius_ratio;
   double strain = 0, misfit = 0;
@@ -57,29 +57,29 @@ namespace detail {
 
 }  // namespace detail
 
-/// E_hat of each particle and the share of the bulk modulus in a mean dilatation with which walls of a few layers bend
-/// and twist as they should, for particles of `fit_particles` that are bonded with the paper's weight and radius:
+/// Chooses E_hat of each particle, and the mean dilatation, so that walls of a few layers bend and twist correctly. For
+/// particles of `fit_particles` that are bonded with the paper's weight and radius:
 ///
 ///     const auto fitted = fit_particles(shape, box, l0);
 ///     const auto [E_hat, bulk] = thin_wall_stabiliser(fitted.layers, fitted.layer_spacings, l0, K, mu);
 ///     internal_force(bonds, elastic(MooneyRivlin<>::from_young(E, bulk.law / 2)), mean_dilatation<2>(bulk.mean),
 ///                    artificial([&](const auto& at) { return at(scalars(E_hat)); }))
 ///
-/// Nothing is calibrated. A wall of thickness t that is twisted by kappa holds the energy mu kappa^2 t^3 / 6 per area,
-/// whatever its bulk modulus. E_hat is that at which the discrete energy, strain and artificial, is the same where the
-/// layers are hexagonal and each lies over the hollows of the next. The law keeps
+/// The choice is derived, not calibrated. A wall of thickness t with the twist kappa has the energy mu kappa^2 t^3 / 6
+/// per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial, equal to it for
+/// hexagonal layers in which each particle lies over a hollow of the next layer. The law keeps
 ///
 ///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 where the volume does not change
 ///
-/// because the two particles of a column of two see the same J, and cannot thin on one side: with K_law, one that
-/// cannot is as stiff as a wall that can. See docs/theory.md.
+/// because the two particles across a wall of two layers have the same J, so that the wall cannot become thinner on one
+/// side only: with K_law, a wall that cannot do so is as stiff as one that can. See docs/theory.md.
 ///
-/// @param layers          through the wall at each particle, 0 in bulk, where E_hat is `shear_wave_modulus`
-/// @param layer_spacings  in m, their distance
+/// @param layers          layers through the wall at each particle; 0 in bulk, where E_hat is `shear_wave_modulus`
+/// @param layer_spacings  their distance in m
 /// @param spacing         l0 in m
 /// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
-/// Throws `InputError` for moduli or a spacing that are not positive, numbers of layers and spacings that are not as
-/// many, a single layer, and layers closer than 0.6 or further apart than 1.3 spacings.
+/// Throws `InputError` for moduli or a spacing that are not positive, lists of different sizes, a single layer, and
+/// layers closer than 0.6 or further apart than 1.3 spacings.
 template <class P, class S>
 [[nodiscard]] ThinWallStabiliser<P> thin_wall_stabiliser(const std::vector<int>& layers,
                                                          const std::vector<S>& layer_spacings, double spacing,
@@ -105,7 +105,7 @@ template <class P, class S>
             " layers; it takes two to bend, and more than eight are bulk (0)");
     require(c >= 0.6 - 1e-6 && c <= 1.3, "hmps: the layers at particle ", i, " are ", c,
             " spacings apart; give a spacing of which they are 0.6 to 1.3");
-    if (layers[i] != count || c != apart)  // mostly it is as at the particle before
+    if (layers[i] != count || c != apart)  // usually equal to that of the previous particle
       modulus = detail::thin_wall_modulus(count = layers[i], apart = c);
     chosen.moduli.push_back(static_cast<P>(modulus) * mu);
   }

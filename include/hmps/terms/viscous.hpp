@@ -15,13 +15,11 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The viscous force of the standard MPS method, \paper{21}: rho nu times the MPS model of the
-/// Laplacian of the velocity. n^0 and lambda, which the paper leaves to its references, are those of
-/// a particle inside the body, n^0 = sum w and lambda = sum |r0|^2 w / sum w
-/// (`Blocks::standard_density` and `standard_lambda`).
+/// The viscous force of the standard MPS method, \paper{21}: rho nu times the MPS Laplacian of the velocity. n^0 and
+/// lambda, which the paper takes from its references, are those of a particle inside the body, n^0 = sum w and lambda =
+/// sum |r0|^2 w / sum w (`Blocks::standard_density` and `standard_lambda`).
 ///
-/// It damps relative motion; at free surfaces, where the neighbourhood is not symmetric, it also
-/// damps a rigid spin.
+/// It damps relative motion. At free surfaces, where neighbourhoods are asymmetric, it also damps rigid rotation.
 struct Viscous {
   double density;    ///< rho in kg/m3.
   double viscosity;  ///< nu in m2/s.
@@ -45,7 +43,7 @@ struct ViscousOfEach {
     return rho * nu * static_cast<K>(2 * D / (blocks.standard_lambda() * blocks.standard_density()));
   }
 
-  /// Throws `InputError` if density or viscosity is a view of another number of particles.
+  /// Throws `InputError` if density or viscosity is a view of the wrong size.
   void check(std::size_t size) const {
     detail::require_quantity(density, size, "densities of the viscous force");
     detail::require_quantity(viscosity, size, "viscosities");
@@ -61,8 +59,7 @@ struct ViscousOfEach {
           " m2/s; it must not be negative");
   return {density, viscosity};
 }
-/// The same where one of them, or both, are views or callables. Their values are read anew at each evaluation and not
-/// checked.
+/// The same with views or callables for one or both. Their values are read at each evaluation and not checked.
 template <PerParticle Rho, PerParticle Nu>
 requires(!std::is_arithmetic_v<Rho> || !std::is_arithmetic_v<Nu>)
     [[nodiscard]] ViscousOfEach<Rho, Nu> viscous(Rho density, Nu viscosity) {

@@ -10,24 +10,23 @@
 #include "hmps/core/step.hpp"
 #include "hmps/core/view.hpp"
 
-/// The equation of motion, \paper{1}, in time: symplectic Euler with contact between the half steps,
-/// \paper{2, 3, 4}, as verbs to compose:
+/// Time integration of the equation of motion, \paper{1}: symplectic Euler with contact between the half steps,
+/// \paper{2, 3, 4}, as functions to compose:
 ///
 ///     force(x, v, f);          kick(v, f, rho, dt);          // v* of Eq. (2)
-///     contact(x, v, F, dt, f); kick(v, f, rho, dt);          // Eq. (3), of an f that was zeroed before
+///     contact(x, v, F, f);     kick(v, f, rho, dt);          // Eq. (3)
 ///     drift(x, v, dt);                                       // Eq. (4)
 ///
-/// The order of the calls is the scheme: another scheme is another order. No verb knows a force.
-/// Every particle moves; whatever has a forced displacement gets its velocity prescribed between the
-/// last kick and the drift.
+/// The order of the calls defines the scheme. The functions do not know any force. Every particle moves; forced
+/// displacements prescribe velocities between the last kick and the drift.
 namespace hmps::inline HMPS_ABI {
 
-/// Adds to the velocities what the force densities give in the time `dt`, \paper{2} and \paper{3}:
-/// v <- v + f dt / rho. The mass cancels.
+/// Changes the velocities by the force densities over the time `dt`, \paper{2} and \paper{3}: v <- v + f dt / rho. The
+/// mass cancels.
 ///
 /// @param v    velocities in m/s, changed
 /// @param f    force densities in N/m3
-/// @param rho  density in kg/m3: a number, a `ScalarView` with one per particle, or a callable
+/// @param rho  density in kg/m3, one number or a `ScalarView` with one per particle
 /// @param dt   time step in s, positive
 /// Throws `InputError` for views of different sizes, a density or a step that is not positive.
 template <class T, class U, int D, PerParticle Rho, Executor E = Serial>
@@ -43,10 +42,10 @@ void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, 
   });
 }
 
-/// Moves the positions by the velocities for the time `dt`, \paper{4}: x <- x + v dt.
+/// Changes the positions by the velocities over the time `dt`, \paper{4}: x <- x + v dt.
 ///
-/// In float the increment v dt of a small step is a few units in the last place of x, and what rounding drops adds up:
-/// use the compensated `drift` below, or positions in double, for long runs.
+/// In float, the increment v dt of a small step is only a few units in the last place of x, and rounding errors
+/// accumulate. Use the compensated `drift` below, or positions in double, for long runs.
 ///
 /// @param x   positions in m, changed
 /// @param v   velocities in m/s
@@ -66,13 +65,12 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, cons
   });
 }
 
-/// `drift` that remembers in `carry` what rounding dropped and adds it in the next step (Kahan's
-/// summation), so that the error of x stays at about one rounding of x, and one rounding of the path that it has
-/// travelled, however many steps are made.
+/// `drift` with compensated summation (Kahan): `carry` stores what rounding dropped, for the next step. The error of x
+/// thus stays at about one rounding of x, plus one rounding of the distance travelled, after any number of steps.
 ///
-/// @param carry  in m, what x is ahead of the exact sum; zero at the start, kept by the caller from
-///               step to step, and part of what a checkpoint saves
-/// A translation unit compiled with -ffast-math drops the compensation.
+/// @param carry  in m, the excess of x over the exact sum; zero at the start, kept by the caller from step to step, and
+///               part of a checkpoint
+/// A translation unit compiled with -ffast-math loses the compensation.
 template <class T, class U, int D, Executor E = Serial>
 void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorView<T, D>& carry, double dt,
            const E& execute = {}) {
