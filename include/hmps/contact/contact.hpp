@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Contact between organs: the class MetaballContact and what its members do.
+// Contact between organs: the class MetaballContact and its member functions.
 #include "hmps/contact/contact_evaluate.hpp"
 #include "hmps/contact/contact_forces.hpp"
 #include "hmps/contact/contact_overlaps.hpp"

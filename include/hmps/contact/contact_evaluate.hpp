@@ -9,7 +9,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Makes room for what the present lists name.
+/// Resizes the arrays to the present lists.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 void MetaballContact<S, D, Kernel, Friction>::resize() {
   const std::size_t row_count = lists_.active().rows().size() - 1, awake_count = lists_.active().awake().size() - 1;
@@ -57,7 +57,7 @@ void MetaballContact<S, D, Kernel, Friction>::gather(const X& x, const V& v, con
         }
         if (!detail::is_finite(size + place.sum() + velocity.sum()))
           suspect_[q] = std::min(suspect_[q], static_cast<Index>(begin + l));
-        // A master that is squashed flat is no wall: it is put out of reach.
+        // A flattened master is no wall: it is moved out of reach.
         if (!detail::is_finite(size)) {
           for (int r = 0; r < D; ++r) {
             master.x[r] = S(1e6);
@@ -70,7 +70,7 @@ void MetaballContact<S, D, Kernel, Friction>::gather(const X& x, const V& v, con
   check_suspects(x, v, F);
 }
 
-/// Throws for the first particle that has a position, a velocity or a deformation gradient to be refused.
+/// Throws for the first particle with an invalid position, velocity or deformation gradient.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G>
 void MetaballContact<S, D, Kernel, Friction>::check_suspects(const X& x, const V& v, const G& F) const {
@@ -84,8 +84,8 @@ void MetaballContact<S, D, Kernel, Friction>::check_suspects(const X& x, const V
   }
 }
 
-/// Row `r`: true if its slave touches, and then its weights of \paper{41, 42}. `depth` is set where the wall has lost
-/// it.
+/// Evaluates row `r`. Returns whether its slave touches, and if so, sets its weights of \paper{41, 42}. Sets `depth` if
+/// the wall has lost the slave.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G>
 bool MetaballContact<S, D, Kernel, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
@@ -107,7 +107,7 @@ bool MetaballContact<S, D, Kernel, Friction>::touch(std::size_t r, const X& x, c
   const bool turned = touches && history_.turned_round(row.slot, contact.outward, contact.inside);
   if (contact.lost || turned) depth = contact.depth;
   if (!touches) {
-    if (state.penetration > S(0))  // in the call before
+    if (state.penetration > S(0))  // in the previous call
       for (std::size_t k = 0; k < size; ++k) entry_weight[entry[k]] = 0;
     return false;
   }
@@ -127,7 +127,7 @@ void MetaballContact<S, D, Kernel, Friction>::fail(const ContactReport<S>& repor
       "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
 
-/// Evaluates all rows, lists those that touch, and reports what walls have lost.
+/// Evaluates all rows, lists those that touch, and reports slaves that walls have lost.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G, class E>
 void MetaballContact<S, D, Kernel, Friction>::find(const X& x, const V& v, const G& F, ContactReport<S>& report,

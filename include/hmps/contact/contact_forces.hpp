@@ -8,7 +8,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// k in N/m4. Throws `InputError` where `S` cannot hold it, or what is computed from it.
+/// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 S MetaballContact<S, D, Kernel, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = stiffness.at(settings_.density, dt);
@@ -41,7 +41,7 @@ void MetaballContact<S, D, Kernel, Friction>::require_heavy(const Rho& rho, doub
   }
 }
 
-/// What acts between the organs of each pair at step `dt`.
+/// Computes the laws of each pair for the step `dt`.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 void MetaballContact<S, D, Kernel, Friction>::set_laws(double dt) {
   laws_.resize(own_.size());
@@ -68,7 +68,7 @@ void MetaballContact<S, D, Kernel, Friction>::weigh(const E& execute) {
   });
 }
 
-/// The forces \paper{39, 40} of the rows that touch; returns how many stick.
+/// The forces \paper{39, 40} of the rows that touch. Returns how many stick.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class E>
 std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& execute) {
@@ -86,8 +86,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
       const PairLaw& law = laws_[lists_.organs().sides()[lists_.active().rows()[r].side].pair];
       S load = 0;
       if (needs_load) {
-        // The first of four numbers: a sum of single products would be taken several at a time, rounded in another way
-        // than the rest that is left over, and so depend on how many candidates without weight lie between.
+        // Uses the first of four numbers: a sum of single products would be vectorised, with a rounding that depends on
+        // the number of candidates without weight in between.
         Quad of_masters{};
         for (std::size_t e = lists_.active().rows()[r].begin; e < lists_.active().rows()[r + 1].begin; ++e)
           of_masters += Quad{load_[lists_.active().master_of()[e]]} * weight_[e];
@@ -122,8 +122,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
   return sticking;
 }
 
-/// Lets the elastic slip of row `r` follow what has moved since the call before. Returns the part of the velocity of
-/// the wall at the slave that \paper{31} leaves out, m/s: what comes of its turning.
+/// Updates the elastic slip of row `r` by the motion since the previous call. Returns the part of the velocity of the
+/// wall at the slave (m/s) that \paper{31} omits: that of its rotation.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 typename MetaballContact<S, D, Kernel, Friction>::Point MetaballContact<S, D, Kernel, Friction>::follow(Index r,
                                                                                                         double dt) {
@@ -158,7 +158,7 @@ template <class Take, class E>
 void MetaballContact<S, D, Kernel, Friction>::hand_out(const Take& take, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
-    // Rows that do not touch have no force: adding it costs less than to ask.
+    // Rows that do not touch have zero force: adding it is cheaper than testing.
     Quad force{};
     for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.active().slave_rows()[q]];
     for (std::size_t e = own.entries; e < next.entries; ++e)

@@ -10,13 +10,13 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The wall that a slave sees, gathered over its master particles j in two passes: `reach` for each
-/// (sum and normal, \paper{28, 30}), then `mean` for each with c > 0 (velocity and strain,
-/// \paper{31, 33}); then the functions below them.
+/// The wall in front of a slave, accumulated over its master particles j in two passes: `reach` for each master (sum
+/// and normal, \paper{28, 30}), then `mean` for each with c > 0 (velocity and strain, \paper{31, 33}); then the
+/// functions below them.
 ///
-/// Lengths in m; `r` = r_ij = x_j - x_i. The kernel depends on |F_j^-1 r_ij|^2 = r_ij . A_j r_ij alone,
-/// with A_j = F_j^-T F_j^-1, so one product serves sum and gradient; a rotation of the master changes
-/// nothing, and rigid masters pass the identity.
+/// Lengths in m; `r` = r_ij = x_j - x_i. The kernel depends only on |F_j^-1 r_ij|^2 = r_ij . A_j r_ij with A_j = F_j^-T
+/// F_j^-1, so that one product gives both sum and gradient. A rotation of the master changes nothing; rigid masters use
+/// the identity.
 template <class S, int D, Metaball Kernel = PaperMetaball>
 class MasterSurface {
   using Quad = detail::Quad<S>;
@@ -30,7 +30,7 @@ class MasterSurface {
     detail::spread<S>(r, place);
     return reach(columns, place, over_radius_squared);
   }
-  /// The same from the columns of A_j and r_ij with zeros behind.
+  /// The same from the columns of A_j and r_ij, padded with zeros.
   HMPS_INLINE S reach(const Quad* A, const Quad& r, S over_radius_squared) {
     Quad y = A[0] * r[0];
     for (int c = 1; c < D; ++c) y += A[c] * r[static_cast<std::size_t>(c)];
@@ -63,9 +63,9 @@ class MasterSurface {
     return S(-2) * over_radius_squared * detail::first<D, S>(sum_);
   }
 
-  /// n_m, \paper{30}: the unit normal from the wall to the slave; the minus of \paper{30} turns the
-  /// gradient outwards. Deep inside a wall the sum vanishes (0/0): returns false, and leaves `n` zero,
-  /// where it is below a thousandth of what its terms could add up to.
+  /// n_m, \paper{30}: the unit normal from the wall to the slave; the minus of \paper{30} turns the gradient outwards.
+  /// Deep inside a wall the sum vanishes (0/0): if it is below a thousandth of the sum of its magnitudes, returns false
+  /// and sets `n` to zero.
   [[nodiscard]] bool normal(S radius, Vector<S, D>& n) const {
     n = detail::first<D, S>(sum_);
     const S length = n.norm();
@@ -85,7 +85,7 @@ class MasterSurface {
   /// Mean stretch of the masters along the normal, \paper{32, 33}; the paper calls it strain.
   [[nodiscard]] S stretch(const Vector<S, D>& n) const { return density() / unturned(n).norm(); }
 
-  /// sum c F_j^-1 n: the direction that the normal has for the masters as they were before they turned.
+  /// sum c F_j^-1 n: the direction of the normal in the masters' unrotated configuration.
   [[nodiscard]] Vector<S, D> unturned(const Vector<S, D>& n) const {
     Vector<S, D> sum = Vector<S, D>::Zero();
     for (int q = 0; q < D; ++q) sum += n[q] * detail::first<D, S>(inverse_[q]);

@@ -7,13 +7,11 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The function that each particle of a wall spreads around itself. Valid expressions, with
-/// `s = (r / r_e)^2` in `[0, 1]` (the square, so that no root is taken per pair):
-/// - `Kernel::radius`: the effective radius in spacings, `r_e / l0`;
-/// - `Kernel::value(s)`: c, falling from a positive value at 0 to 0 at 1;
-/// - `Kernel::slope(s)`: dc/ds, negative between.
+/// The kernel that each particle of a wall contributes, with `s = (r / r_e)^2` in `[0, 1]` (squared, to avoid a root
+/// per pair): - `Kernel::radius`: the effective radius in spacings, `r_e / l0`; - `Kernel::value(s)`: c, falling from a
+/// positive value at 0 to 0 at 1; - `Kernel::slope(s)`: dc/ds, negative between.
 ///
-/// Satisfied by `PaperMetaball` and `SmoothMetaball`. Beyond `r_e` the caller takes zero.
+/// Models: `PaperMetaball`, `SmoothMetaball`. Beyond `r_e` it is zero.
 template <class Kernel>
 concept Metaball = requires(double s) {
   { Kernel::radius } -> std::convertible_to<double>;
@@ -21,9 +19,9 @@ concept Metaball = requires(double s) {
   { Kernel::slope(s) } -> std::convertible_to<double>;
 };
 
-/// c = 1 - (r / r_e)^2 with r_e = 1.75 l0, \paper{26}; c(0) = 1. The gradient of the sum jumps where
-/// a particle enters r_e, so a flat lattice wall is a washboard: at contact height its normal tilts
-/// by up to tan = 0.37.
+/// The paper's kernel, \paper{26}: c = 1 - (r / r_e)^2 with r_e = 1.75 l0; c(0) = 1. The gradient of the sum jumps
+/// where a particle enters r_e, so that a flat lattice wall is rough: at contact height its normal tilts by up to tan =
+/// 0.37.
 struct PaperMetaball {
   static constexpr double radius = 1.75;
   template <class S>
@@ -36,9 +34,9 @@ struct PaperMetaball {
   }
 };
 
-/// c = (1 - (r / r_e)^2)^3 with r_e = 2.5 l0: in place of \paper{26} where friction matters. Two
-/// continuous derivatives; over a flat lattice wall the normal tilts by tan = 0.008 at most at
-/// contact height. Reaches 2.9 times as many particles.
+/// A smooth kernel, in place of \paper{26} where friction matters: c = (1 - (r / r_e)^2)^3 with r_e = 2.5 l0. Two
+/// continuous derivatives; over a flat lattice wall the normal tilts by at most tan = 0.008 at contact height. Reaches
+/// 2.9 times as many particles.
 struct SmoothMetaball {
   static constexpr double radius = 2.5;
   template <class S>

@@ -33,26 +33,28 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with
-/// reactions and friction. A functor that keeps only the lists of candidates, the latest normals and, for
-/// `SpringFriction`, elastic slip; positions, velocities and deformation gradients stay with the caller.
+/// Contact between organs by metaball walls and penalties, \paper{22} to \paper{43}: both roles, with reactions and
+/// friction. Stores only the lists of candidates, the latest normals and, for `SpringFriction`, elastic slip;
+/// positions, velocities and deformation gradients belong to the caller.
 ///
-/// Declare organs and the pairs that may touch, then in each step call
-/// `contact(x, v, F, dt, f)` with v = v* of \paper{2}; it ADDS the force density (N/m3) of \paper{43}
-/// to `f`. Views hold all particles; F is read for the slaves and masters only (rotation of a rigid
-/// particle is irrelevant, so it may keep the identity).
+/// Declare organs and the pairs that may touch. Then call `contact(x, v, F, dt, f)` in each step, with v = v* of
+/// \paper{2}; it ADDS the force density (N/m3) of \paper{43} to `f`. Views hold all particles; F is read for slaves and
+/// masters only. (The rotation of a rigid particle is irrelevant, so its F may stay the identity.)
 ///
-/// Forces of a contact and its reactions sum to zero; their torque does not vanish exactly, since a
-/// reaction acts at the master's centre and not at the touching point (\paper{41, 42}).
-/// Results are the same to the bit for any executor, and do not depend on when lists were built as long as `late` of
-/// the report stays zero: what deforms much within a few steps, as in an impact at half of the speed of sound, may be
-/// seen a few steps late.
-/// Where `S` is narrower than the scalars of the positions, such as float and double, places are measured from an
-/// origin: zero, unless the middle of all organs lies further from it than about a thousand spacings (float) when lists
-/// are built; then it becomes the origin. So it stays where it is from step to step and results do not jump, but for
-/// rounding each time that all organs together have travelled that far.
-/// Slaves whose normal is undefined (deep inside) get no force and are counted as deep; `check` makes an
-/// error of that.
+/// The forces of a contact and its reactions sum to zero. Their torque does not vanish exactly, because a reaction acts
+/// at the master's centre and not at the point of contact (\paper{41, 42}).
+///
+/// Results are the same to the bit for any executor. They do not depend on when lists were built as long as `late` of
+/// the report stays zero; strong deformation within a few steps, as in an impact at half the speed of sound, may be
+/// detected a few steps late.
+///
+/// If `S` is narrower than the scalar type of the positions, such as float and double, positions are measured from an
+/// origin: zero, unless the centre of all organs is further than about a thousand spacings (float) from it when lists
+/// are built; then the origin moves there. It thus stays constant from step to step, and results change, by rounding
+/// only, each time that all organs have travelled that far.
+///
+/// Slaves with an undefined normal (deep inside) receive no force and are counted as deep; `check` reports them as an
+/// error.
 template <class S, int D, Metaball Kernel = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
@@ -63,7 +65,7 @@ class MetaballContact {
   using Slip = std::conditional_t<has_spring, detail::ElasticSlip<S, D>, detail::NoSlip>;
 
  public:
-  /// Throws `InputError` on settings that are not finite or out of range.
+  /// Throws `InputError` for settings that are not finite or out of range.
   explicit MetaballContact(const ContactSettings& settings)
       : settings_(settings),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
@@ -76,13 +78,13 @@ class MetaballContact {
             settings.margin, " spacings; give a positive number, such as 0.5");
   }
 
-  /// Declares an organ; the number returned names it in `add_pair`. Throws `InputError` if empty.
+  /// Declares an organ and returns its number for `add_pair`. Throws `InputError` if it is empty.
   std::size_t add_organ(const Organ& organ) { return lists_.add_organ(organ); }
 
-  /// Declares that two organs may touch. Returns the pair's number. Throws `InputError` where they share a particle or
-  /// lack slaves or masters for their roles, where they are a pair already, in either order, and where a slave would
-  /// meet the same master in the same role in another pair too (one body declared as two organs, say): the force
-  /// would count twice. Organs of different pairs may share slaves or masters otherwise.
+  /// Declares that two organs may touch, and returns the number of the pair. Throws `InputError` if they share a
+  /// particle, lack slaves or masters for their roles, or are already a pair in either order, and if a slave would meet
+  /// the same master in the same role in another pair (for example, because one body is declared as two organs): the
+  /// force would count twice. Otherwise, organs of different pairs may share slaves or masters.
   std::size_t add_pair(std::size_t first, std::size_t second, const PairSettings& settings = {}) {
     if (settings.friction) require_friction(*settings.friction);
     const std::size_t pair = lists_.add_pair(first, second, settings);
@@ -90,23 +92,23 @@ class MetaballContact {
     return pair;
   }
 
-  /// Builds all lists anew at the next call. Not needed after steps in time.
+  /// Rebuilds all lists at the next call. Not needed after time steps.
   void refresh() {
     lists_.refresh();
     history_.next_call();
   }
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
-  /// mu of the pairs that have none of their own (`PairSettings::friction`).
+  /// Sets mu of the pairs without a friction coefficient of their own (`PairSettings::friction`).
   void set_friction(double mu) {
     require_friction(mu);
     settings_.friction = mu;
   }
 
-  /// Adds the contact force densities at step `dt` (s) to `f`. Throws `InputError` on views of wrong
-  /// size, a bad step and a penalty that `S` cannot hold, and where the deformation gradient of a particle of an organ
-  /// is zero; `StateError` where a position or gradient of one, or the velocity of one that is near another organ, is
-  /// not finite. A gradient that is singular but not zero, or that `S` cannot invert, makes its particle no wall.
+  /// Adds the contact force densities for the step `dt` (s) to `f`. Throws `InputError` for views of the wrong size, an
+  /// invalid step, a penalty that `S` cannot represent, and if the deformation gradient of a particle of an organ is
+  /// zero. Throws `StateError` if a position or gradient, or the velocity of a particle near another organ, is not
+  /// finite. A particle whose gradient is singular but not zero, or that `S` cannot invert, forms no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
   ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
                               double dt, const VectorView<T, D>& f, const E& execute = {}) {
@@ -121,11 +123,10 @@ class MetaballContact {
     return evaluate(x, v, detail::Undeformed<S, D>{}, dt, f, execute);
   }
 
-  /// Adds to the velocities `v` (m/s) of what touches what contact gives in the step `dt` (s), \paper{3}: the forces
-  /// of the call above and `kick`, without an array of forces, and at no cost for particles that are far from any
-  /// other organ. Particles that are `prescribed` keep their velocity. Density `rho` in kg/m3, a number or a
-  /// `ScalarView`. Throws as those two do, and `InputError` where a particle that may touch is so light that its own
-  /// k~ = k dt^2 / rho reaches 1.
+  /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to the call
+  /// above and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
+  /// `prescribed` particles keep their velocity. Density `rho` in kg/m3: a number, a view or a callable. Throws as
+  /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1.
   template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
   ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
                         double dt, const E& execute = {}) {
@@ -146,17 +147,17 @@ class MetaballContact {
     return report;
   }
 
-  /// Throws a `StateError` if `report`, that of the latest call, has a slave that its wall has lost: time (s, if
-  /// given), particle, organ, depth, and what to try. Call it after each evaluation, not now and then: what passes a
-  /// thin wall is in it for a few steps only, and seems to be all right beyond it. Costs one comparison. Nothing
-  /// passes unseen that moves less than a spacing per step against the wall, as all do that are slower than sound.
+  /// Throws a `StateError` if, by the latest `report`, a wall has lost a slave: time (s, if given), particle, organ,
+  /// depth and remedy. Costs one comparison. Call it after each evaluation: a slave that passes through a thin wall is
+  /// inside it for a few steps only, and looks valid afterwards. Nothing is missed that moves less than a spacing per
+  /// step relative to the wall, which holds for all speeds below that of sound.
   void check(const ContactReport<S>& report, double time = std::numeric_limits<double>::quiet_NaN()) const {
     if (report.deep > 0) fail(report, time);
   }
 
-  /// Where organs reach into each other in the state `x` (m), `F`: see `Overlap`. Ask before a run, since bodies that
-  /// overlap at its start are flung apart, or not seen where they lie deeper than metaballs reach. One entry for each
-  /// pair and role that has slaves in a wall. Costs as much as making all lists. Throws as the evaluation does.
+  /// Finds overlaps of organs in the state `x` (m), `F`: one entry for each pair and role with slaves inside a wall;
+  /// see `Overlap`. Call it before a run: overlapping bodies are flung apart, or not detected at all if they lie deeper
+  /// than metaballs reach. Costs as much as building all lists. Throws as the evaluation does.
   template <class X, class M>
   [[nodiscard]] std::vector<Overlap> overlaps(const VectorView<X, D>& x, const MatrixView<M, D>& F) const {
     require_size(F, x.size(), "deformation gradients");
@@ -168,8 +169,8 @@ class MetaballContact {
     return find_overlaps(x, detail::Undeformed<double, D>{});
   }
 
-  /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second, in
-  /// the latest call: what the first feels from the second. Particles have the volume l0^D.
+  /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second in the latest call:
+  /// the force of the second organ on the first. Each particle has the volume l0^D.
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const Index r : touching_) {
@@ -181,9 +182,9 @@ class MetaballContact {
     return sum * std::pow(settings_.spacing, D);
   }
 
-  /// Calls `visit(touch)` with a `Touch<D>` for each slave that touched in the latest call, once per organ that it
-  /// touched: for pressures, areas, moments. The part of the force along the normal is \paper{39}, the rest friction.
-  /// Particles have the volume l0^D.
+  /// Calls `visit(touch)` with a `Touch<D>` for each slave in contact in the latest call, once per organ that it
+  /// touches: for pressures, areas and moments. The component of the force along the normal is \paper{39}, the rest is
+  /// friction. Each particle has the volume l0^D.
   template <class Visit>
   void for_each_touch(Visit&& visit) const {
     const double volume = std::pow(settings_.spacing, D);
@@ -201,7 +202,7 @@ class MetaballContact {
   using Quad = detail::Quad<S>;
   struct RowState {
     Point normal, slip;  // slip: v_im
-    S penetration;       // positive where the row touches, or did in the call before
+    S penetration;       // positive if the row touches, or did in the previous call
   };
   struct Batch {
     std::size_t count = 0, deep = 0;
@@ -215,7 +216,7 @@ class MetaballContact {
   struct PairLaw {
     S stiffness, damping, friction;
   };
-  static constexpr std::size_t batch = 8, gather_batch = 64;  // of rows: few, since quiet scenes have few
+  static constexpr std::size_t batch = 8, gather_batch = 64;  // rows per batch: few, because quiet scenes have few
 
   template <class X, class V, class G, class T, class E>
   ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute) {
@@ -229,7 +230,7 @@ class MetaballContact {
           execute);
     return report;
   }
-  /// The forces of all rows that touch, for `hand_out`.
+  /// Computes the forces of all rows that touch, for `hand_out`.
   template <class X, class V, class G, class E>
   ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
 
@@ -267,12 +268,12 @@ class MetaballContact {
   void hand_out(const Take& take, const E& execute) const;
 
   ContactSettings settings_;
-  std::vector<PairSetting> own_;  // per pair: in place of what `settings_` says
-  std::vector<PairLaw> laws_;     // per pair: of the present call
+  std::vector<PairSetting> own_;  // per pair: overrides `settings_`
+  std::vector<PairLaw> laws_;     // per pair, for the present call
   Lists lists_;
   std::vector<detail::Master<S, D>> masters_;  // per awake particle
   std::vector<detail::MovingMaster<S, D>> moving_;
-  // Per candidate, row by row, c / C where the row touches; and master by master, 0 where it does not.
+  // Per candidate, c / C if the row touches, else 0: row by row, and master by master.
   std::vector<S> weight_, entry_weight_;
   std::vector<RowState> state_;  // per row
   std::vector<Quad> force_;

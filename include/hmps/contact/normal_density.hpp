@@ -14,18 +14,17 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The normal density function Z(y), \paper{27}, and its inverse, \paper{29}: how far a slave is from
-/// the outermost layer of a wall, read from the sum of metaballs there.
+/// The normal density function Z(y), \paper{27}, and its inverse, \paper{29}: the distance of a slave from the
+/// outermost layer of a wall, from the sum of metaballs there.
 ///
-/// The standard wall is a simple cubic (2D: square) lattice that fills the half space y <= 0, with
-/// its outermost particles at y = 0. Z is averaged over the slave's place along the wall (the paper
-/// does not say where its column of slaves stands; right above a particle the figures differ by up
-/// to 5 %). The average makes the sum over a layer an integral over its plane.
+/// The standard wall is a simple cubic (2D: square) lattice that fills the half space y <= 0, with its outermost
+/// particles at y = 0. Z is averaged over the position of the slave along the wall. (The paper does not specify where
+/// its column of slaves stands; directly above a particle the values differ by up to 5 %.) With the average, the sum
+/// over a layer becomes an integral over its plane.
 ///
-/// The inverse is a table with a smooth interpolation (relative error below 1e-6 l0), since Z falls
-/// monotonically only near the surface: below `deepest()`, where its slope has dropped to a quarter
-/// of the steepest, it saturates and says nothing about depth. From there on the inverse stays at
-/// `deepest()` and flags the slave as deep.
+/// The inverse is a table with smooth interpolation (relative error below 1e-6 l0). Z falls monotonically only near the
+/// surface: below `deepest()`, where its slope has dropped to a quarter of the steepest, it saturates and does not
+/// determine the depth. The inverse then stays at `deepest()` and flags the slave as deep.
 template <class S, int D, Metaball Kernel = PaperMetaball>
 class NormalDensity {
  public:
@@ -63,8 +62,8 @@ class NormalDensity {
     bool deep = false;     ///< Z has saturated: the true distance is `deepest()` or less.
   };
 
-  /// R_im = Z^-1(C_im), \paper{29}, for the sum `density` of metaballs. Never NaN: a sum of zero (or
-  /// less, or NaN) is out of reach.
+  /// R_im = Z^-1(C_im), \paper{29}, for the sum `density` of metaballs. Never NaN: a sum of zero, a negative sum or NaN
+  /// is out of reach.
   [[nodiscard]] Distance inverse(S density) const {
     if (!(density > 0)) return {spacing_ * static_cast<S>(Kernel::radius), false, false};
     if (density >= top_) return {spacing_ * static_cast<S>(deepest_), true, true};
@@ -77,18 +76,18 @@ class NormalDensity {
     return {spacing_ * y, true, false};
   }
 
-  /// A quarter of the steepest -dZ/dy in 1/m: where the sum falls less across a wall, a slave is deep in
-  /// it, also in a wall too thin for Z to saturate.
+  /// A quarter of the steepest -dZ/dy in 1/m: where the sum falls less across a wall, a slave is deep inside, also in a
+  /// wall too thin for Z to saturate.
   [[nodiscard]] S least_slope() const { return static_cast<S>(least_slope_) / spacing_; }
   /// l0 in m.
   [[nodiscard]] S spacing() const { return spacing_; }
-  /// The least distance in m that the inverse can tell; negative: within the wall.
+  /// The smallest distance in m that the inverse can return; negative, inside the wall.
   [[nodiscard]] S deepest() const { return spacing_ * static_cast<S>(deepest_); }
 
  private:
   static constexpr std::size_t nodes = 1024;
 
-  /// The metaballs of one layer `h` spacings away, integrated over the layer.
+  /// The sum of metaballs of one layer at the distance of `h` spacings, integrated over the layer.
   [[nodiscard]] static double layer(double h) {
     constexpr double radius = Kernel::radius;
     if (std::abs(h) >= radius) return 0;
@@ -129,8 +128,8 @@ class NormalDensity {
     least_slope_ = -0.25 * steepest;
   }
 
-  /// The y between `low` and the reach at which Z is `density`: secant steps from `low`, bisection
-  /// where they leave the bracket.
+  /// Finds y between `low` and the reach with Z(y) = `density`: secant steps from `low`, bisection if they leave the
+  /// bracket.
   [[nodiscard]] static double solve(double density, double low) {
     double high = Kernel::radius, at_low = in_spacings(low) - density, at_high = -density, y = low;
     for (int i = 0; i < 60 && high - low > 1e-13; ++i) {

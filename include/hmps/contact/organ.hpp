@@ -21,24 +21,24 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A body with a surface that may touch others. Indices are of the user's particles; a particle may
-/// be slave and master (usual), and may belong to several organs.
+/// A body with a surface that may touch others. Indices refer to the user's particles. A particle may be slave and
+/// master (the usual case) and belong to several organs.
 struct Organ {
   std::string name;                  ///< For messages.
-  std::span<const Index> slaves{};   ///< The outermost layer: what is kept out of walls.
+  std::span<const Index> slaves{};   ///< The outermost layer, which is kept out of walls.
   std::span<const Index> masters{};  ///< The wall: the two outermost layers carry all of Z above y = 0.
-  /// Whether a particle follows a forced displacement, so that no force moves it (default: none).
-  /// `CorrectedFriction`, damping and `MetaballContact::kick` ask for it.
+  /// Whether a particle follows a forced displacement, so that forces do not move it (default: none). Read by
+  /// `CorrectedFriction`, damping and `MetaballContact::kick`.
   std::function<bool(Index)> prescribed{};
 };
 
-/// Which organ of a pair has slaves. Both is the paper's choice, \paper{43}.
+/// Which organ of a pair has slaves. The paper uses both, \paper{43}.
 enum class Roles { both, only_first_is_slave, only_second_is_slave };
 
-/// How two organs of a pair meet.
+/// Settings of a pair of organs.
 struct PairSettings {
   Roles roles = Roles::both;
-  /// Slaves of either organ that are none in this pair: see `exclude_attached`.
+  /// Slaves of either organ that do not take part in this pair: see `exclude_attached`.
   std::span<const Index> excluded_slaves{};
   /// `excluded(slave, master)`: these two never touch. Called when lists are built, from any thread.
   std::function<bool(Index, Index)> excluded{};
@@ -46,11 +46,10 @@ struct PairSettings {
   std::optional<PenaltyStiffness> stiffness{};  ///< k of this pair, if not that of `ContactSettings`.
 };
 
-/// The slaves among `slaves` whose reference position lies within `distance` (m) of that of a particle
-/// of `attachment`: the particles of the other organ that are bonded to the slaves' organ. Where two
-/// organs grow together their surfaces must not push each other apart. The distance is given in
-/// metres so that it does not shrink with the spacing. Result sorted by index, for
-/// `PairSettings::excluded_slaves`. Throws `InputError` on a bad index or distance.
+/// The slaves of `slaves` whose reference position lies within `distance` (m) of that of a particle of `attachment`:
+/// the particles of the other organ that are bonded to the slaves' organ. Where two organs grow together, their
+/// surfaces must not push each other apart. The distance is in metres, so that it does not shrink with the spacing. The
+/// result is sorted by index, for `PairSettings::excluded_slaves`. Throws `InputError` for a bad index or distance.
 template <class T, int D>
 [[nodiscard]] std::vector<Index> exclude_attached(const VectorView<T, D>& reference, std::span<const Index> slaves,
                                                   std::span<const Index> attachment, double distance) {

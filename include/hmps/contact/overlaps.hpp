@@ -20,32 +20,32 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// How far the slaves of one organ reach into the wall of another, as `MetaballContact::overlaps` finds it.
+/// How far the slaves of one organ reach into the wall of another: a result of `MetaballContact::overlaps`.
 ///
-/// Near the surface the depth is the penetration of \paper{38}. Where the slave lies behind the slaves of the wall's
-/// organ, these tell, and have to form its surface: up to four spacings deep, to about half a spacing, and not behind
-/// edges, so that `count` is what surely is inside. What lies behind a thin wall whose far side has no slaves counts as
-/// inside; of a wall whose organ has no slaves only the metaballs tell.
+/// Near the surface the depth is the penetration of \paper{38}. Deeper inside it is estimated from the slaves of the
+/// wall's organ, which must form its surface: up to four spacings deep, to about half a spacing, and not behind edges,
+/// so that `count` includes only slaves that are certainly inside. Slaves behind a thin wall whose far side has no
+/// slaves count as inside. For a wall whose organ has no slaves, only the metaballs are used.
 struct Overlap {
   std::size_t pair;             ///< As numbered by `add_pair`.
   std::string slaves, masters;  ///< Names of the organs.
   std::size_t count = 0;        ///< Slaves that reach into the wall.
-  Index deepest = 0;            ///< The one that does so most,
-  double depth = 0;             ///< by how much, in m.
+  Index deepest = 0;            ///< The deepest of them,
+  double depth = 0;             ///< its depth in m.
 };
 
 namespace detail {
 
-/// Particles in the state that `overlap_of` looks at.
+/// The state of the particles for `overlap_of`.
 template <int D>
 struct OverlapParticles {
   std::vector<Index> particle;
   std::vector<Vector<double, D>> x;
-  std::vector<Matrix<double, D>> F;  // may be empty where it is not needed
+  std::vector<Matrix<double, D>> F;  // may be empty if it is not needed
 };
 
-/// The side of a surface that is outside: for each particle of `skin`, the unit vector away from the masters around it;
-/// zero where these lie to all sides alike, as in a wall of one layer.
+/// The outward direction of a surface: for each particle of `skin`, the unit vector away from the surrounding masters;
+/// zero if these lie on all sides, as in a wall of one layer.
 template <int D>
 [[nodiscard]] HMPS_COLD std::vector<Vector<double, D>> outward_of(const OverlapParticles<D>& skin,
                                                                   const OverlapParticles<D>& masters, double spacing) {
@@ -66,10 +66,10 @@ template <int D>
   return outward;
 }
 
-/// Fills in `count`, `deepest` and `depth` of `overlap` for `slaves` at a wall of `masters` whose outermost layer is
-/// `skin` (empty if unknown). Near the surface the depth is the penetration of \paper{38}; further in, where metaballs
-/// tell nothing, it is a spacing more than what the slave lies behind the nearest particle of the skin, if that is less
-/// than `deepest` spacings away.
+/// Sets `count`, `deepest` and `depth` of `overlap` for `slaves` at a wall of `masters` whose outermost layer is `skin`
+/// (empty if unknown). Near the surface the depth is the penetration of \paper{38}. Further inside, where metaballs
+/// give no distance, it is one spacing plus the distance of the slave behind the nearest particle of the outermost
+/// layer, if that is less than `deepest` spacings away.
 template <int D, Metaball Kernel>
 HMPS_COLD void find_overlap(const NormalDensity<double, D, Kernel>& Z, const OverlapParticles<D>& slaves,
                             const OverlapParticles<D>& masters, const OverlapParticles<D>& skin,

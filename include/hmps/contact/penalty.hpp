@@ -11,12 +11,11 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The penalty coefficient k in N/m4 (force density per penetration). `ratio` is the paper's choice,
-/// \paper{25}: it makes the wall four times stiffer whenever the step is halved, and with it the
-/// chatter. `fixed` belongs to the scene and lets the step vary; of a `ratio(0.3)` at step dt0 it is
-/// `fixed(0.3 * density / (dt0 * dt0))`. Either way k~ = k dt^2 / rho must stay below 1: the stable
-/// step of the whole falls to about dt_c sqrt(1 - k~), a tenth less where k~ is near 0.75. `stable_step`
-/// tells.
+/// The penalty coefficient k in N/m4 (force density per penetration). `ratio` is the paper's choice, \paper{25}:
+/// halving the step makes the wall four times stiffer, and increases its chatter. `fixed` belongs to the scene and does
+/// not depend on the step; `ratio(0.3)` at step dt0 equals `fixed(0.3 * density / (dt0 * dt0))`. Either way k~ = k dt^2
+/// / rho must be below 1. The stable step of the scene falls to about dt_c sqrt(1 - k~), and a tenth less for k~ near
+/// 0.75; `stable_step` computes it.
 class PenaltyStiffness {
  public:
   /// k = k~ rho / dt^2. Throws `InputError` unless 0 < k~ < 1.
@@ -31,7 +30,7 @@ class PenaltyStiffness {
     return {k, false};
   }
 
-  /// k in N/m4 for density (kg/m3) and step (s). Throws `InputError` where a fixed k is too stiff.
+  /// k in N/m4 for density (kg/m3) and step (s). Throws `InputError` if a fixed k is too stiff.
   [[nodiscard]] double at(double density, double dt) const {
     if (is_ratio_) return value_ * density / (dt * dt);
     require(value_ * dt * dt < density, "hmps: a penalty of ", value_, " N/m4 makes k~ = ", value_ * dt * dt / density,
@@ -46,8 +45,8 @@ class PenaltyStiffness {
   bool is_ratio_;
 };
 
-/// Normal force density in N/m3, \paper{22, 39}, to be taken along n_m: k p, and, beyond the paper,
-/// `damping` (N s/m4) times the speed `closing` (m/s) at which wall and slave approach. Never pulls.
+/// Normal force density in N/m3, \paper{22, 39}, along n_m: k p plus, as an extension, `damping` (N s/m4) times the
+/// speed `closing` (m/s) at which wall and slave approach. Never attractive.
 template <class S>
 [[nodiscard]] S normal_force(S k, S penetration, S damping, S closing) {
   const S f = k * penetration + damping * closing;
@@ -70,9 +69,9 @@ template <class S, int D>
   return (limit / speed) * v;
 }
 
-/// What share of rho v_tan / dt a sticking slave takes in one step. `needs_load`: whether the contact
-/// must first gather how much each particle is acted upon. `share(load)` gets the sum described at
-/// `CorrectedFriction`, and returns the share. A law may bring `has_spring` and `damping` too: see `SpringFriction`.
+/// The fraction of rho v_tan / dt that a sticking slave takes in one step. `needs_load`: whether contact must first sum
+/// how strongly each particle is acted upon. `share(load)` takes the sum described at `CorrectedFriction` and returns
+/// the fraction. A law may also have `has_spring` and `damping`: see `SpringFriction`.
 template <class Law>
 concept FrictionLaw = requires(double load) {
   { Law::needs_load } -> std::convertible_to<bool>;
@@ -90,17 +89,16 @@ struct PaperFriction {
   }
 };
 
-/// The cap of \paper{40} divided by what all passes and reactions of one step add up to, so that
-/// sticking brings the relative tangential velocity to zero and never reverses it.
+/// The cap of \paper{40} divided by the sum of all passes and reactions of one step, so that sticking brings the
+/// relative tangential velocity to zero and never reverses it.
 ///
-/// With w_il = c_il / C_i the weights of \paper{41, 42}, let N_p count how strongly particle p is
-/// acted upon: 1 for each contact in which p is the slave, plus w_kp for each slave k that p is a
-/// master of; N_p = 0 where p is prescribed (infinitely heavy). The share of contact i is
-/// 1 / (N_i + sum_l w_il N_l): the absolute row sum of the matrix that maps tangential impulses to
-/// relative velocities. That matrix is symmetric and non-negative, so a step with these shares
-/// multiplies each of its modes by a factor between 0 and 1; where contacts of one sheet slide alike,
-/// the factor is 0. Two free particles in both roles: a quarter; against a prescribed one: a half;
-/// each twice that in one role.
+/// With w_il = c_il / C_i the weights of \paper{41, 42}, let N_p count how strongly particle p is acted upon: 1 for
+/// each contact in which p is the slave, plus w_kp for each slave k that p is a master of; N_p = 0 if p is prescribed
+/// (infinitely heavy). The share of contact i is 1 / (N_i + sum_l w_il N_l): the inverse absolute row sum of the matrix
+/// that maps tangential impulses to relative velocities. That matrix is symmetric and non-negative, so a step with
+/// these shares multiplies each of its modes by a factor between 0 and 1; if all contacts of a sheet slide alike, the
+/// factor is 0. Two free particles in both roles: a quarter; against a prescribed one: a half; each twice that in one
+/// role.
 struct CorrectedFriction {
   static constexpr bool needs_load = true;
   template <class S>

@@ -12,22 +12,22 @@
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/quad.hpp"
 
-/// The contact of one slave with one wall, sections 2.7 to 2.9 of the paper: what is computed, without how slaves and
-/// masters are found or where results go.
+/// The contact of one slave with one wall, sections 2.7 to 2.9 of the paper: the physics, independent of how slaves and
+/// masters are found and where results go.
 namespace hmps::inline HMPS_ABI::detail {
 
-/// What is needed of each master to know how near its wall is; a cache line of float.
+/// The data of a master that determine the distance of its wall; in float one cache line.
 template <class S, int D>
 struct alignas(64) Master {
   Quad<S> x, A[std::size_t{D}];  // position in m, and the columns of A = F^-T F^-1
 };
-/// What is needed besides of the masters of a wall that is touched.
+/// Further data of a master, for walls in contact.
 template <class S, int D>
 struct alignas(64) MovingMaster {
   Quad<S> v, B[std::size_t{D}];  // velocity in m/s, and the columns of B = F^-1
 };
 
-/// The masters of a wall: those with the numbers `number[0]` to `number[size - 1]`.
+/// The masters of a wall: those numbered `number[0]` to `number[size - 1]`.
 template <class S, int D>
 struct Wall {
   const Master<S, D>* masters;
@@ -36,22 +36,22 @@ struct Wall {
   std::size_t size;
 };
 
-/// What a slave meets at a wall.
+/// Result of `slave_contact`.
 template <class S, int D>
 struct SlaveContact {
-  S penetration = 0;  ///< p in m, \paper{38}; zero: it does not touch, and nothing below is set but `lost`.
+  S penetration = 0;  ///< p in m, \paper{38}; if zero, there is no contact and only `lost` is set besides.
   Vector<S, D> slip;  ///< v_im in m/s, \paper{31}.
   S over_density;     ///< 1 / C_im
-  /// The slave is so deep that the wall does not tell which way is out, or gives no normal at all.
+  /// The slave is so deep that the direction outwards is undefined, or that there is no normal.
   bool lost = false;
-  S depth = 0;               ///< How deep it is then, in m: p, or that of an undeformed wall where there is no normal.
-  bool inside;               ///< Its centre is nearer than 0.6 spacings to those of the wall's outermost layer.
-  Vector<float, D> outward;  ///< The normal before the masters turned.
+  S depth = 0;               ///< Its depth then, in m: p, or that of an undeformed wall if there is no normal.
+  bool inside;               ///< Its centre is within 0.6 spacings of the outermost layer of the wall.
+  Vector<float, D> outward;  ///< The normal before the rotation of the masters.
 };
 
 /// Evaluates a slave at `place` (m) against `wall`. Writes the normal n_m to `normal` if the wall is within reach, and
-/// the metaballs c_ij of all masters to `c`. `gradient()` returns F_i and `velocity()` v_i in m/s; they are asked for
-/// where they are needed, which for most slaves is never. `compression` bounds the inverse of the stretch from above.
+/// the metaballs c_ij of all masters to `c`. `gradient()` returns F_i and `velocity()` v_i in m/s; they are called only
+/// when needed, which for most slaves is never. `compression` is an upper bound of the inverse of the stretch.
 template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
 [[nodiscard]] HMPS_INLINE SlaveContact<S, D> slave_contact(const NormalDensity<S, D, Kernel>& Z, const Quad<S>& place,
                                                            const Wall<S, D>& wall, S compression, Gradient&& gradient,
@@ -75,7 +75,7 @@ template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
     return contact;
   }
   const S support = slave_support<S, D>(gradient(), normal, l0);  // r_i, (37)
-  // The stretch is at least 1 / compression: most that are near need no second pass.
+  // The stretch is at least 1 / compression: most slaves nearby need no second pass.
   if (!(surface_distance(S(1), centres.value, l0) < support * compression)) return contact;
 
   for (std::size_t k = 0; k < wall.size; ++k)
@@ -90,8 +90,8 @@ template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
   contact.penetration = contact.depth = p;
   contact.slip = surface.relative_velocity(velocity());  // (31)
   contact.over_density = S(1) / surface.density();
-  // Where the sum falls less than it should across a wall it no longer tells which way is out. In a wall of one layer
-  // that happens nearer than 0.6 spacings; further off it also falls little.
+  // Where the sum falls less than it should across a wall, the direction outwards is undefined. In a wall of one layer
+  // this happens within 0.6 spacings; further away the sum falls little, too.
   contact.inside = centres.value < S(0.6) * l0;
   contact.lost =
       centres.deep || (contact.inside && surface.gradient(over_radius_squared).norm() * stretch < Z.least_slope());

@@ -9,11 +9,11 @@
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 
-/// What contact says about a state that it cannot work with. Called only for particles whose numbers look suspicious.
+/// Errors of contact about an invalid state. Called only for particles with suspicious numbers.
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `StateError` if the deformation gradient `F` of particle `i` is not finite, and `InputError` if it is zero,
-/// since then nothing has written it. One that is merely squashed flat passes: its particle is no wall.
+/// which means that nothing has written it. A flattened particle passes: it forms no wall.
 template <int D>
 HMPS_COLD void require_gradient(const Matrix<double, D>& F, Index i) {
   if (!all_finite(F))

@@ -17,15 +17,16 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Where contact sees the outermost particles of a body whose surface is cut out of a lattice; beyond the paper.
+/// Corrects the positions at which contact sees the outermost particles of a body that is cut out of a lattice; an
+/// extension of the paper.
 ///
-/// A surface that is not along the lattice is a staircase: its outermost particles lie up to a spacing below it, and
-/// the wall of metaballs that they make has the steps of the stairs. Here each particle of the skin is raised to half
-/// a spacing below the surface, where a layer along it would lie, by an offset in the reference configuration that
-/// follows its deformation gradient: x + F d. Only contact is to see these places: mass, bonds and forces stay with
-/// the particles. A functor that keeps the offsets; positions stay with the caller.
+/// A surface that is not aligned with the lattice is a staircase: its outermost particles lie up to a spacing below it,
+/// and their metaballs form a stepped wall. This class moves each of them to half a spacing below the surface, where an
+/// aligned layer would lie, by an offset in the reference configuration that follows its deformation gradient: x + F d.
+/// Only contact should see these positions: mass, bonds and forces stay with the particles. Stores the offsets;
+/// positions belong to the caller.
 ///
-/// In each step call it before the contact, and hand the places on instead of the positions:
+/// In each step, call it before the contact, and pass on its result instead of the positions:
 ///
 ///     raised(x, F, places);   contact(places, v, F, dt, f);
 template <class S, int D>
@@ -56,8 +57,8 @@ class SurfaceCorrection {
     }
   }
 
-  /// The offset in m of a particle at `start`, or nothing if it lies further than 1.5 spacings from where it should or
-  /// the shape does not tell which way is out.
+  /// The offset in m of a particle at `start`; empty if it is further than 1.5 spacings from its place or the shape
+  /// gives no direction outwards.
   template <class Shape>
   [[nodiscard]] static std::optional<Vector<double, D>> offset_of(const Vector<double, D>& start, const Shape& shape,
                                                                   double spacing) {
@@ -77,8 +78,8 @@ class SurfaceCorrection {
     return offset;
   }
 
-  /// Writes to `places` what contact shall see: the positions `x`, and x + F d for the skin, in m. Throws `InputError`
-  /// unless the views hold the same particles, and all of the skin.
+  /// Writes the positions for contact to `places`: x, and x + F d for the outermost particles, in m. Throws
+  /// `InputError` unless the views have the same size and hold all of these.
   template <class X, class M, class P, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const MatrixView<M, D>& F, const VectorView<P, D>& places,
                   const E& execute = {}) const {

@@ -14,9 +14,9 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// How a wall moves at a slave: the rigid motion that fits that of its masters best, by least squares with their
-/// weights. The mean of the masters' motion, \paper{31}, is that at their middle, half a spacing and more behind the
-/// surface, and differs from that at the slave where the wall turns.
+/// The motion of a wall at a slave: the rigid motion that fits its masters best, by weighted least squares. The mean
+/// motion of the masters, \paper{31}, is that of their centre, half a spacing or more behind the surface, and differs
+/// from that at the slave if the wall rotates.
 template <class S, int D>
 class WallMotion {
  public:
@@ -25,8 +25,8 @@ class WallMotion {
 
   /// `spacing` in m.
   explicit WallMotion(S spacing) : spacing_(spacing) {}
-  /// Adds a master of weight `w` (they sum to 1) at `r` from the slave, in spacings, which moves by `moved` (m); zeros
-  /// behind. `r` is that in the middle of the motion, so that turning is exact at any angle.
+  /// Adds a master of weight `w` (they sum to 1) at `r` from the slave, in spacings, that moves by `moved` (m); both
+  /// padded with zeros. `r` is that at the middle of the motion, which makes rotations of any angle exact.
   HMPS_INLINE void add(S w, const Quad<S>& r, const Quad<S>& moved) {
     const Quad<S> weighted = r * w;
     middle_ += weighted;
@@ -44,7 +44,8 @@ class WallMotion {
       squares.col(c) = first<D, S>(squares_[static_cast<std::size_t>(c)]) - middle[c] * middle;
       products.col(c) = first<D, S>(products_[static_cast<std::size_t>(c)]) - mean[c] * middle;
     }
-    // Masters on a line, or one alone, do not tell all rotations: a little more than rounding keeps the inverse finite.
+    // Masters on a line, or a single one, do not determine all rotations: a regularisation slightly above rounding
+    // keeps the inverse finite.
     const S size = squares.trace() + S(100) * std::numeric_limits<S>::epsilon();
     const Tensor moment = products.transpose() - products;
     if constexpr (D == 2) {
@@ -56,15 +57,15 @@ class WallMotion {
     }
   }
 
-  /// What the wall moves at the slave, in m: the mean of its masters and what comes of its turning.
+  /// The displacement of the wall at the slave, in m: the mean of its masters plus the effect of its rotation.
   [[nodiscard]] Point moved() const { return first<D, S>(mean_) + by_turning(); }
   [[nodiscard]] Point by_turning() const { return -(spin_ * first<D, S>(middle_)); }
-  /// `vector` turned as the wall turns, of the same length.
+  /// `vector` rotated with the wall; its length is preserved.
   [[nodiscard]] Point turned(const Point& vector) const {
     const Point once = spin_ * vector / spacing_;
     return scaled(vector + once + S(0.5) / spacing_ * (spin_ * once), vector.norm());
   }
-  /// The part of `vector` across the unit vector `n`, lengthened to the length of `vector`.
+  /// The component of `vector` normal to the unit vector `n`, scaled to the length of `vector`.
   [[nodiscard]] static Point across(const Point& vector, const Point& n) {
     return scaled(vector - vector.dot(n) * n, vector.norm());
   }
@@ -80,7 +81,7 @@ class WallMotion {
   Tensor spin_ = Tensor::Zero();  // W of u = W r, in m for r in spacings
 };
 
-/// How far the particles of all organs have moved since the call before, whoever moved them.
+/// The displacements of the particles of all organs since the previous call, whatever moved them.
 template <class S, int D>
 class ParticleMotion {
  public:
@@ -94,7 +95,7 @@ class ParticleMotion {
       number_.push_back(static_cast<Index>(n));
     }
   }
-  /// Takes the positions `x` (m) of this call. Those of the call before are zero where there was none.
+  /// Stores the positions `x` (m) of this call. Displacements are zero in the first call.
   template <class X, class E>
   void update(const X& x, const std::vector<Index>& particle, const E& execute) {
     const bool known = place_.size() == particle.size();
@@ -108,9 +109,9 @@ class ParticleMotion {
       }
     });
   }
-  /// In m, of an awake particle.
+  /// The displacement in m of an active particle.
   [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }
-  /// From the awake particle `from` to `to`, in m.
+  /// The vector in m from the active particle `from` to `to`.
   [[nodiscard]] Vector<S, D> between(std::size_t from, std::size_t to) const {
     return (place_[number_[to]] - place_[number_[from]]).template cast<S>();
   }

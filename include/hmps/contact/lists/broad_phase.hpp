@@ -16,7 +16,7 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// An executor without its type: what is built now and then need not be compiled for each.
+/// A type-erased executor, so that code that runs rarely is compiled once.
 using AnyExecutor = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 
 /// The broad-phase list: for every slave the masters within reach plus a margin, in rows of one slave of one side each.

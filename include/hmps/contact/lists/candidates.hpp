@@ -55,19 +55,18 @@ template <class T, int D>
   return sqrt(mean + sqrt(contract<T, D>(C, C) * T((D - 1.) / D)));
 }
 
-/// Which slaves may meet which masters. The broad-phase list holds the pairs within reach plus `margin`, in rows
-/// of one slave each; a grid search makes it, whenever organs have moved or a reach has grown by that
-/// much. Most of its rows sleep: a check takes the particles to go on as they went, and bounds how too_far those of a
-/// row may be off that before its slave could touch. From then on every call looks how too_far each particle truly is
-/// off, and wakes the rows for which that is too too_far; what is awake makes up the list that is evaluated. A check is
-/// due when the rows woken since the last one have cost as much as it does, and after `longest_interval` calls (fewer
-/// where much is awake or moves fast), for deformation gradients change too.
+/// The lists of slaves and masters that may touch. The broad-phase list holds the pairs within reach plus `margin`, in
+/// rows of one slave each. A grid search builds it whenever organs have moved, or a reach has grown, by that much. Most
+/// of its rows sleep: a check extrapolates the motion of the particles and bounds how far those of a row may deviate
+/// from it before the slave could touch. Every later call measures the deviation of each particle and wakes the rows
+/// for which it is too large; the active rows make up the Verlet list that is evaluated. The next check is due when the
+/// rows woken since the last one have cost as much as a check, and after `longest_interval` calls (fewer if much is
+/// active or moves fast), because deformation gradients change too.
 ///
-/// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when
-/// lists were made.
+/// All orders follow the particles' indices, so sums over contacts do not depend on when lists were built.
 ///
-/// The particles of all organs are numbered once each, in the order of their indices; a member is such
-/// a particle in one organ. A row is a slave of one side (an ordered pair of organs).
+/// The particles of all organs are numbered once each, in the order of their indices; a member is such a particle in
+/// one organ. A row is a slave of one side (an ordered pair of organs).
 template <class S, int D, Metaball Kernel>
 class Candidates {
  public:
@@ -90,18 +89,18 @@ class Candidates {
     return added;
   }
   [[nodiscard]] const OrganPairs& organs() const { return organs_; }
-  /// What is to be evaluated: the rows that are awake.
+  /// The Verlet list to evaluate: the active rows.
   [[nodiscard]] const ActiveRows<S>& active() const { return active_; }
   [[nodiscard]] const NormalDensity<S, D, Kernel>& normal_density() const { return normal_density_; }
-  /// How often the grid search ran, how often all was measured, and how often that found a change beyond what was
-  /// allowed for.
+  /// Counters: grid searches, checks, and checks that found a change larger than was allowed for.
   [[nodiscard]] std::size_t rebuilds() const { return rebuilds_; }
   [[nodiscard]] std::size_t checks() const { return checks_; }
   [[nodiscard]] std::size_t late() const { return late_; }
   void refresh() { built_ = false; }
 
-  /// The position of particle `i` of the view `x`, in m from the origin of the lists. Where `S` is narrower than the
-  /// scalars of `x` that is rounded after the subtraction, so that it is as sharp too_far from zero as near it.
+  /// The position of particle `i` of the view `x`, in m from the origin of the lists. If `S` is narrower than the
+  /// scalar type of `x`, it is rounded after the subtraction, so that the precision does not depend on the distance
+  /// from zero.
   template <class X>
   [[nodiscard]] HMPS_INLINE Point place_of(const X& x, std::size_t i) const {
     using Wide = typename X::Scalar;
@@ -111,19 +110,19 @@ class Candidates {
       return x[i].template cast<S>();
   }
 
-  /// Keeps the lists valid for this call; true if what is awake has changed.
+  /// Updates the lists for this call. Returns whether the active rows have changed.
   template <class X, class Gradients, class E>
   bool update(const X& x, const Gradients& F, const E& execute);
 
-  /// Measures all organs, builds the broad-phase list anew where needed, and puts to sleep what can sleep.
+  /// Checks all organs, rebuilds the broad-phase list if needed, and puts rows to sleep.
   template <class X, class Gradients, class E>
   void check(const X& x, const Gradients& F, const E& execute);
 
  private:
   static constexpr std::size_t chunk = 512, shortest_interval = 8, longest_interval = 64;
-  // What a particle may do until the next check, beside going on as it went: a multiple of what it did since the last,
-  // but this at least (motion in spacings; strain as a share by which lengths measured by A change; turn of a normal
-  // in rad).
+  // What a particle may do until the next check besides its extrapolated motion: a multiple of what it did since the
+  // last check, but at least this (motion in spacings; strain as a relative change of lengths measured by A; rotation
+  // of a normal in rad).
   static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05), least_turn = S(0.03),
                      first_turn = S(0.2);
   struct OrganMotion {  // since the broad-phase list was built
@@ -144,7 +143,7 @@ class Candidates {
   struct Facing {        // of a slave to one wall, at the latest check
     Point outward;       // normal of the wall; zero where it was not asked for
     S turn;              // by which it may turn until the next check
-    bool trusted, late;  // its row sleeps because of it; has turned further
+    bool trusted, late;  // its row sleeps because of it; it has turned further
   };
   /// In evaluations of one candidate.
   [[nodiscard]] std::size_t cost_of_check() const { return broad_.masters().size() / 2 + 2 * particle().size(); }
@@ -184,7 +183,7 @@ class Candidates {
   std::vector<Point> drift_;                // motion per call that is expected until the next check
   std::vector<Matrix<S, D>> metric_;        // A = F^-T F^-1 at the latest check
   std::vector<S> reach_, built_reach_;      // r_e times the stretch
-  std::vector<S> compression_;              // bound of |F^-1|; negative: squashed flat, no wall
+  std::vector<S> compression_;              // bound of |F^-1|; negative: flattened, no wall
   std::vector<S> bound_, strain_;           // of motion beside the drift in m and strain, until the next check
   std::vector<S> travel_;                   // bound and drift in m
   std::vector<S> allowance_;                // square of the motion that wakes a row or makes a check due

@@ -6,7 +6,7 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Numbers the particles of all organs once each, and cuts the members into chunks.
+/// Numbers the particles of all organs once each, and divides the members into chunks.
 template <class S, int D, Metaball Kernel>
 void Candidates<S, D, Kernel>::number() {
   organs_.number_particles();
@@ -29,7 +29,7 @@ void Candidates<S, D, Kernel>::number() {
       parts_.push_back({o, m, std::min(m + chunk, organs[o].end), 0, 0, Point::Zero()});
 }
 
-/// Builds the broad-phase list from the places and reaches of the latest check.
+/// Builds the broad-phase list from the positions and reaches of the latest check.
 template <class S, int D, Metaball Kernel>
 template <class E>
 void Candidates<S, D, Kernel>::build(const E& execute) {
@@ -65,7 +65,7 @@ void Candidates<S, D, Kernel>::check(const X& x, const Gradients& F, const E& ex
     built_ = false;
   }
   if (!built_) facing_.assign(organs_.slots(), {Point::Zero(), first_turn, false, false});
-  // Sharper lists are worth about a tenth of what is spent on evaluating them.
+  // Sharper lists are worth about a tenth of the cost of evaluating them.
   interval_ = std::clamp<std::size_t>(8 * cost_of_check() / (active_.master_of().size() + 1), shortest_interval,
                                       longest_interval);
   bool is_late = measure(x, F, execute);
@@ -77,7 +77,7 @@ void Candidates<S, D, Kernel>::check(const X& x, const Gradients& F, const E& ex
     choose_origin(x);
     build(execute);
   }
-  // Two particles may come nearer by twice the bound; the rest is for the growth of reaches.
+  // Two particles may approach by twice the bound; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();
   for (std::size_t s = 0; s < sides().size(); ++s) most = std::min(most, S(0.4) * (broad_.limit(s) - used(s)));
   const S most_drift = S(0.5) * most;
@@ -113,14 +113,15 @@ void Candidates<S, D, Kernel>::check(const X& x, const Gradients& F, const E& ex
   select();
 }
 
-/// How much of its limit a side has used up since the broad-phase list was built.
+/// How much of its limit a side has used since the broad-phase list was built.
 template <class S, int D, Metaball Kernel>
 S Candidates<S, D, Kernel>::used(std::size_t side) const {
   const OrganMotion &a = motion_[sides()[side].slaves], &b = motion_[sides()[side].masters];
   return a.motion + b.motion + (a.moved - b.moved).norm() + b.growth;
 }
 
-/// Place, reach and strain of every particle. True if some strain has changed by more than was allowed for.
+/// Measures position, reach and strain of every particle. Returns whether some strain has changed by more than was
+/// allowed for.
 template <class S, int D, Metaball Kernel>
 template <class X, class Gradients, class E>
 bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, const E& execute) {
@@ -159,7 +160,7 @@ bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, const E& 
         strain_[i] = built_ ? std::max({least_strain, S(4) * longer() * change, S(0.5) * strain_[i]}) : first_strain;
         const S reach = radius_ * stretch.lane[l];
         reach_[i] = reach;
-        // A master that is squashed flat is no wall.
+        // A flattened master forms no wall.
         const bool is_wall = is_finite(compression.lane[l]) && is_finite(reach);
         if (!is_wall) flat = std::min(flat, static_cast<Index>(i));
         compression_[i] = is_wall ? compression.lane[l] : S(-1);
@@ -174,9 +175,9 @@ bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, const E& 
   return any;
 }
 
-/// Moves the origin to the middle of the particles where they lie so far from it that `S` resolves their distances only
-/// to 1e-4 spacings or worse, which for float is beyond about a thousand spacings. Only before lists are built, and
-/// never where `S` is as wide as the scalars of `x`.
+/// Moves the origin to the centre of the particles if they are so far from it that `S` resolves their distances only to
+/// 1e-4 spacings or worse, which for float is beyond about a thousand spacings. Only before lists are built, and never
+/// if `S` is as wide as the scalar type of `x`.
 template <class S, int D, Metaball Kernel>
 template <class X>
 void Candidates<S, D, Kernel>::choose_origin(const X& x) {
@@ -195,8 +196,8 @@ void Candidates<S, D, Kernel>::choose_origin(const X& x) {
   }
 }
 
-/// Throws where F has no inverse for another reason than that its particle is squashed flat: a `StateError` or, where
-/// nothing has been written to it, an `InputError`.
+/// Throws if F has no inverse although its particle is not flattened: a `StateError` or, if nothing has written it, an
+/// `InputError`.
 template <class S, int D, Metaball Kernel>
 template <class Gradients>
 void Candidates<S, D, Kernel>::check_flat(const Gradients& F) const {
@@ -207,7 +208,7 @@ void Candidates<S, D, Kernel>::check_flat(const Gradients& F) const {
   }
 }
 
-/// How far the organs have moved since the broad-phase list was built.
+/// Measures how far the organs have moved since the broad-phase list was built.
 template <class S, int D, Metaball Kernel>
 template <class E>
 void Candidates<S, D, Kernel>::measure_organs(const E& execute) {
@@ -240,7 +241,7 @@ void Candidates<S, D, Kernel>::measure_organs(const E& execute) {
     const auto& range = organs_.organs()[o];
     // A NaN slips through the maxima but not through the sum.
     if (!all_finite(organ.moved)) fail(range);
-    // `motion` was measured beyond the mean of the check before, which serves as well as the present.
+    // `motion` is relative to the mean of the previous check, which serves as well as the present one.
     const Point mean = organ.moved / static_cast<S>(range.end - range.begin);
     organ.motion = std::sqrt(organ.motion) + (mean - shift[o]).norm();
     organ.moved = mean;
@@ -259,7 +260,7 @@ void Candidates<S, D, Kernel>::fail(const OrganPairs::OrganRange& organ) const {
                            "' to overflow; the run has become unstable: try a shorter step or a softer penalty"));
 }
 
-/// Makes the list of the rows that are awake.
+/// Builds the list of active rows.
 template <class S, int D, Metaball Kernel>
 void Candidates<S, D, Kernel>::select() {
   active_.clear();

@@ -42,9 +42,9 @@ S Candidates<S, D, Kernel>::widest(const Row& row) {
   return (S(1) + strain_[row.slave]) * std::min(stretch, length) * compression;
 }
 
-/// Keeps the masters of row `r` that could be within reach before the next check, and tells how
-/// long it may rest: C is bounded from above with every master as near as it comes if both drift on, and nearer by what
-/// both may move beside that. With B for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
+/// Selects the masters of row `r` that could be within reach before the next check, and computes how long the row may
+/// sleep: C is bounded from above with every master as near as it comes if both continue their motion, and nearer by
+/// the deviation allowed for both. With B for F_j^-1 and a motion m, |B (r + m)| >= |B r| - |B| |m|.
 template <class S, int D, Metaball Kernel>
 void Candidates<S, D, Kernel>::put_to_sleep(std::size_t r) {
   Row& row = broad_.rows()[r];
@@ -81,7 +81,7 @@ void Candidates<S, D, Kernel>::put_to_sleep(std::size_t r) {
     row.rest = 0;
     return false;
   };
-  // What stretches and turns may do in any direction; only where that is too much, what they may do along the normal.
+  // First the bound for stretches and rotations in any direction; only if it is too large, the bound along the normal.
   const S stretch = (S(1) + strain_[row.slave]) * reach_[row.slave] / radius_;
   Facing& facing = facing_[row.slot];
   facing.late = false;
@@ -93,8 +93,8 @@ void Candidates<S, D, Kernel>::put_to_sleep(std::size_t r) {
   }
 }
 
-/// Wakes the rows of what has moved too far since the check. False if something has moved so far, or is
-/// not finite, that a new check is due.
+/// Wakes the rows of particles that have deviated too far since the check. Returns false if one has deviated so far, or
+/// is not finite, that a new check is due.
 template <class S, int D, Metaball Kernel>
 template <class X, class E>
 bool Candidates<S, D, Kernel>::watch(const X& x, const E& execute) {
@@ -116,7 +116,7 @@ bool Candidates<S, D, Kernel>::watch(const X& x, const E& execute) {
   return true;
 }
 
-/// Wakes the rows that must not sleep any more now that one of their particles has moved so far.
+/// Wakes the rows that must no longer sleep, given the deviation of one of their particles.
 template <class S, int D, Metaball Kernel>
 void Candidates<S, D, Kernel>::wake(Index particle, S moved_squared) {
   S& allowance = allowance_[particle] = bound_[particle] * bound_[particle];

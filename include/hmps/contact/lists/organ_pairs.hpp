@@ -17,16 +17,16 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// What a particle is in an organ, as bits.
+/// The roles of a particle in an organ, as bits.
 enum : std::uint8_t { is_slave = 1, is_master = 2, is_prescribed = 4 };
-/// In place of the number of a particle.
+/// Marks the absence of a particle number.
 inline constexpr Index no_particle = std::numeric_limits<Index>::max();
 
-/// The organs of a scene and which of them may touch: what is declared once, without any state.
+/// The organs of a scene and the pairs that may touch: declared once, without any state.
 ///
-/// A member is a particle in one organ; organ after organ, and sorted by particle in each. All particles that are
-/// members are numbered once, in the order of their indices. A side is an ordered pair of organs: the slaves of one at
-/// the wall of the other.
+/// A member is a particle in one organ. Members are stored organ by organ, sorted by particle in each. All particles
+/// that are members are numbered once, in the order of their indices. A side is an ordered pair of organs: the slaves
+/// of one at the wall of the other.
 class OrganPairs {
  public:
   struct OrganRange {
@@ -55,14 +55,14 @@ class OrganPairs {
   std::size_t add_organ(const Organ& organ);
   /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
-  /// Numbers the particles: to be called after the last organ was added.
+  /// Numbers the particles. Call it after the last organ was added.
   void number_particles();
 
   [[nodiscard]] const std::vector<OrganRange>& organs() const { return organs_; }
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
   [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
   [[nodiscard]] const std::vector<Member>& members() const { return members_; }
-  /// The particle with each number, ascending, and what it is in any organ.
+  /// The particles by number, ascending, and their roles in any organ.
   [[nodiscard]] const std::vector<Index>& particle() const { return particle_; }
   [[nodiscard]] const std::vector<std::uint8_t>& flags() const { return flags_; }
   /// Number of slots of all sides.
@@ -153,8 +153,8 @@ inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const Pair
   return pairs_.size() - 1;
 }
 
-/// Throws `InputError` unless `slaves` has slaves and `masters` masters, and if another side has a slave and a master
-/// of this one too: each would push the other twice.
+/// Throws `InputError` unless `slaves` has slaves and `masters` has masters, and if another side shares a slave and a
+/// master with this one: they would push each other twice.
 inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const {
   const auto any = [&](std::size_t o, std::uint8_t role) {
     for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
@@ -180,7 +180,7 @@ inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, cons
   }
 }
 
-/// The particles that organs `a` and `b` both have in `role`, ascending.
+/// The particles in `role` that organs `a` and `b` share, ascending.
 inline std::vector<Index> OrganPairs::common(std::size_t a, std::size_t b, std::uint8_t role) const {
   std::vector<Index> particles;
   for (std::size_t m = organs_[a].begin, k = organs_[b].begin; m < organs_[a].end && k < organs_[b].end;) {
