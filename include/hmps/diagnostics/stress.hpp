@@ -84,7 +84,7 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
                      const E& execute) {
   execute(F.size(), [&](std::size_t i) {
     const Matrix<double, D> gradient = F[i].template cast<double>();
-    write(i, value(material_at(material, i), gradient));
+    write(i, value(value_at(material, OneParticle{i}), gradient));
   });
 }
 
