@@ -43,7 +43,7 @@ class Reference {
 
   /// (13), (19) and (21) into `f`.
   template <class Law>
-  void operator()(const Law& law, S modulus, S density, S viscosity, const std::vector<Vec>& x,
+  void operator()(const Law& law, S modulus, S rho, S nu, const std::vector<Vec>& x,
                   const std::vector<Vec>& v, std::vector<Vec>& f) {
     for (std::size_t i = 0; i < list_.size(); ++i) {
       Mat sum = Mat::Zero();
@@ -56,7 +56,7 @@ class Reference {
       c_[i] = modulus * S(3) / trace_[i];  // (20)
       coupling_[i] = hmps::first_piola_kirchhoff<Law, S, 3>(law, F) * inverse_[i] - c_[i] * F;
     }
-    const S d = density * viscosity * S(6) / (lambda_ * n0_);
+    const S d = rho * nu * S(6) / (lambda_ * n0_);
     for (std::size_t i = 0; i < list_.size(); ++i) {
       Vec sum = Vec::Zero();
       const Bond* bond = &bonds_[list_.offset[i]];
