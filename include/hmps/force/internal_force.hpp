@@ -62,6 +62,10 @@ class InternalForce {
   requires std::predicate<Moves&, std::size_t>
   void restrict_to(Moves&& moves) {
     bonds_ = &bonds();
+    if constexpr (requires { moves.scene_size(); })
+      require(moves.scene_size() == bonds_->size(), "hmps: the set of particles that move is one of ",
+              moves.scene_size(), " particles, the body has ", bonds_->size(),
+              "; make it for all particles of the body");
     restricted_.restrict_to(*bonds_, moves, Sweeps::means);
   }
 

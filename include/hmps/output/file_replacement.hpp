@@ -14,13 +14,20 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Replaces the file at `path` by `bytes`: written beside it as `path`.part, then renamed, so that a reader finds
-/// either the old file or the new one, whole, also where the program is killed on the way. Does not wait until the disk
-/// has it: a loss of power may cost the latest files. Throws `InputError` with the name and the reason; the old file is
-/// then still there.
-inline void replace_file(const std::filesystem::path& path, std::string_view bytes) {
+/// either the old file or the new one, whole, even if the program is killed on the way. Follows symbolic links. Does
+/// not wait until the disk has it: a loss of power may cost the latest files. Throws `InputError` with the name and the
+/// reason, also if `path` is there and no regular file, such as a device; the old file is then still there.
+inline void replace_file(std::filesystem::path path, std::string_view bytes) {
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  require(!std::filesystem::exists(status) || std::filesystem::is_regular_file(status), "hmps: cannot replace ",
+          path.string(), ": it is not a regular file; give the name of a file");
+  if (std::filesystem::is_symlink(path, problem)) {
+    const std::filesystem::path target = std::filesystem::weakly_canonical(path, problem);
+    if (!problem) path = target;
+  }
   std::filesystem::path temporary = path;
   temporary += ".part";
-  std::error_code problem;
   const auto fail = [&](const char* what, const std::string& reason) {
     std::filesystem::remove(temporary, problem);
     throw InputError(message("hmps: cannot ", what, " ", path.string(), ": ", reason,

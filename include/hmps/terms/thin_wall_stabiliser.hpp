@@ -78,13 +78,15 @@ namespace detail {
 /// @param layer_spacings  their distance in m
 /// @param spacing         l0 in m
 /// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
-/// Throws `InputError` for moduli or a spacing that are not positive, lists of different sizes, a single layer, and
-/// layers closer than 0.6 or further apart than 1.3 spacings.
+/// Throws `InputError` for moduli or a spacing that are not positive, a negative Poisson's ratio, lists of different
+/// sizes, a single layer, and layers closer than 0.6 or further apart than 1.3 spacings.
 template <class P, class S>
 [[nodiscard]] ThinWallStabiliser<P> thin_wall_stabiliser(const std::vector<int>& layers,
                                                          const std::vector<S>& layer_spacings, double spacing,
                                                          P bulk_modulus, P shear_modulus) {
   (void)split_bulk_modulus(bulk_modulus, shear_modulus);  // for its errors
+  require(3 * bulk_modulus >= 2 * shear_modulus, "hmps: the bulk modulus ", bulk_modulus, " Pa and the shear modulus ",
+          shear_modulus, " Pa give a negative Poisson's ratio; give the bulk modulus first, both in Pa");
   require(detail::is_finite(spacing) && spacing > 0, "hmps: the particle spacing is ", spacing,
           " m; it must be positive");
   require(layers.size() == layer_spacings.size(), "hmps: ", layers.size(), " particles have a number of layers but ",

@@ -20,6 +20,16 @@ TEST(FileReplacement, TheNewFileTakesThePlaceOfTheOld) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
+TEST(FileReplacement, ALinkStaysALink) {
+  const hmps_test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.bin", link = folder.path() / "link.bin";
+  detail::replace_file(file, "first");
+  std::filesystem::create_symlink("a.bin", link);
+  detail::replace_file(link, "second");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(detail::read_text(file.string()), "second");
+}
+
 TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
   const hmps_test::TemporaryFolder folder;
   const auto missing = folder.path() / "missing" / "a.bin";
@@ -30,6 +40,9 @@ TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
     EXPECT_NE(std::string(error.what()).find(missing.string()), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
   }
+  // What is no file stays: a program of root would replace a device by a file.
+  EXPECT_THROW(detail::replace_file("/dev/null", "1"), InputError);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   // A folder that is not empty cannot be replaced by a file.
   const auto taken = folder.path() / "taken";
   std::filesystem::create_directories(taken / "inner");

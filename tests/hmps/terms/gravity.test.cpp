@@ -54,6 +54,14 @@ TEST(Gravity, RefusesBadInput) {
   const auto scene = scenes::all<2>().front();
   const Bonds bonds(hmps::vectors(scene.reference), {.spacing = scene.spacing});
   EXPECT_THROW((void)hmps::internal_force(bonds, hmps::gravity(hmps::scalars(rho), g)), hmps::InputError);
+  rho.assign(bonds.size(), 1000);
+  EXPECT_NO_THROW((void)hmps::internal_force(bonds, hmps::gravity(hmps::scalars(rho), g)));
+  rho.back() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)hmps::internal_force(bonds, hmps::gravity(hmps::scalars(rho), g)), hmps::InputError);
+  auto force = hmps::internal_force(bonds, hmps::gravity(1000, g));
+  const auto all = [](std::size_t) { return true; };
+  EXPECT_NO_THROW(force.restrict_to(hmps::ParticleSet(bonds.size(), all)));
+  EXPECT_THROW(force.restrict_to(hmps::ParticleSet(bonds.size() + 1, all)), hmps::InputError);
 }
 
 }  // namespace

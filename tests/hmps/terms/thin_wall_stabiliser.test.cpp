@@ -63,6 +63,7 @@ TEST(ThinWallStabiliser, NamesWhatIsWrong) {
   EXPECT_THROW((void)hmps::thin_wall_stabiliser(one, std::vector<double>{}, 1, 10.0, 1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::thin_wall_stabiliser(one, std::vector<double>{1}, 0, 10.0, 1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::thin_wall_stabiliser(one, std::vector<double>{1}, 1, -10.0, 1.0), hmps::InputError);
+  EXPECT_THROW((void)hmps::thin_wall_stabiliser(one, std::vector<double>{1}, 1, 1.0, 10.0), hmps::InputError);
 }
 
 // The clamped plate of docs/fitted.md, 1.90 mm by finite elements, with two particles through it, turned by 30 degrees.

@@ -126,7 +126,7 @@ inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const Pair
   for (const std::size_t o : {a, b})
     require(o < organs_.size(), "hmps: organ ", o, " of a contact pair does not exist; only ", organs_.size(),
             " organs were added, numbered from 0");
-  require(a != b, "hmps: organ '", organs_[a].name, "' is paired with itself; contact is between different organs_");
+  require(a != b, "hmps: organ '", organs_[a].name, "' is paired with itself; contact is between different organs");
   for (std::size_t m = organs_[a].begin, k = organs_[b].begin; m < organs_[a].end && k < organs_[b].end;) {
     require(members_[m].particle != members_[k].particle, "hmps: particle ", members_[m].particle, " is in both '",
             organs_[a].name, "' and '", organs_[b].name, "'; a pair needs organs without common particles");
