@@ -9,6 +9,7 @@
 
 #include "../../reference/scenes.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/terms/artificial.hpp"
 
