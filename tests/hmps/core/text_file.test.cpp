@@ -58,7 +58,8 @@ TEST(TextFile, ReadsPipes) {
 TEST(TextFile, QuotesOnlyWhatCanBePrinted) {
   EXPECT_EQ(printable("vertex 1"), "vertex 1");
   EXPECT_EQ(printable(std::string_view("a\0\n\xff\x1b[2J", 8)), "a\\x00\\x0a\\xff\\x1b[2J");
-  EXPECT_EQ(printable(std::string(41, 'q')), std::string(40, 'q') + "...");
+  // Not by +, of which g++ 12 warns falsely.
+  EXPECT_EQ(printable(std::string(41, 'q')), std::string(40, 'q').append("..."));
 }
 
 TEST(TextFile, CutsLinesAndWords) {
