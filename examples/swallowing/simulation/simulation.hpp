@@ -253,7 +253,7 @@ class Simulation {
   }
 
   void add_contacts() {
-    with_contact([this](auto& contact) { add_contacts_to(contact); });
+    with_contact([this](auto& contact) { this->add_contacts_to(contact); });
   }
   template <class Contact>
   void add_contacts_to(Contact& contact) {

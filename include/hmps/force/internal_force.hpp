@@ -45,7 +45,6 @@ class InternalForce {
  private:
   using K = Scalar;
   static constexpr int D = dimension;
-  static_assert((detail::RequireTerm<Terms, K, D>::value && ...));
   using Sweeps = detail::ForceSweeps<B, Terms...>;
   static constexpr bool dilates = Sweeps::dilates, couples = Sweeps::couples, damps = Sweeps::damps;
 
@@ -53,7 +52,10 @@ class InternalForce {
   /// Throws `InputError` for bonds without particles and if a term refuses them, for example because it holds a view of
   /// the wrong size.
   explicit InternalForce(const B& bonds, Terms... terms)
-      : followed_(bonds), bonds_(&bonds), sweeps_(bonds, std::move(terms)...) {}
+      : followed_(bonds), bonds_(&bonds), sweeps_(bonds, std::move(terms)...) {
+    // Not before: a law may be of a class that is complete only when a force is made.
+    static_assert((detail::RequireTerm<Terms, K, D>::value && ...));
+  }
 
   /// From now on, evaluates only what the particles with `moves(i)` need, i.e. those that follow the force. The forces
   /// of the others are unspecified. Terms such as `record` see the particles that move, those bonded to them, and the
