@@ -500,7 +500,8 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
     Made made{.plate = 0, .block = 0};
     made.plate = made.contact.add_organ(
         {.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .prescribed = {}});
-    made.block = made.contact.add_organ({.name = "block", .slaves = bottom, .masters = lower, .prescribed = {}});
+    made.block = made.contact.add_organ(
+        {.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower, .prescribed = {}});
     made.contact.add_pair(made.plate, made.block);
     return made;
   };
