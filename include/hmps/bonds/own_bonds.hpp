@@ -116,7 +116,10 @@ class OwnBonds {
     for_each_length(reference, [&](std::size_t i, double s) { shortest[i] = std::min(shortest[i], s); });
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < shortest.size(); ++i)
-      if (!bonds_[i].empty()) sum += std::sqrt(shortest[i]), ++count;
+      if (!bonds_[i].empty()) {
+        sum += std::sqrt(shortest[i]);
+        ++count;
+      }
     return count > 0 ? sum / count : 1;
   }
 

@@ -43,7 +43,10 @@ namespace detail {
           const Vector<double, 3> u[2] = {{-r[1] * z, -r[0] * z, r[0] * r[1]},
                                           {-r[0] * z, r[1] * z, (r[0] * r[0] - r[1] * r[1]) / 2}};
           A += w * r * r.transpose();
-          for (int m = 0; m < 2; ++m) B[m] += w * u[m] * r.transpose(), squares[m] += w * u[m].squaredNorm();
+          for (int m = 0; m < 2; ++m) {
+            B[m] += w * u[m] * r.transpose();
+            squares[m] += w * u[m].squaredNorm();
+          }
         }
     }
     for (int m = 0; m < 2; ++m) {
