@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/support.hpp"
-#include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/lane_math.hpp"
 #include "hmps/laws/continued.hpp"
 #include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"

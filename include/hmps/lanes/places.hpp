@@ -12,6 +12,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/registers.hpp"
 #include "hmps/lanes/slots.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {

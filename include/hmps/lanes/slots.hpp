@@ -8,6 +8,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/registers.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -48,8 +48,8 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
 }
 
-/// The displacement (m) that is subtracted from all particles: that of the particle in the middle of the sweep order, zero
-/// if it is not finite; or the argument of `Blocks::subtract_displacement`.
+/// The displacement (m) that is subtracted from all particles: that of the particle in the middle of the sweep order,
+/// zero if it is not finite; or the argument of `Blocks::subtract_displacement`.
 template <class K, int D, class T>
 [[nodiscard]] Vector<double, D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
   if (blocks.subtracted_displacement()) return *blocks.subtracted_displacement();

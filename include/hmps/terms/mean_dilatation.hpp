@@ -14,6 +14,7 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/lanes/lane_math.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {

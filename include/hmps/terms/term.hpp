@@ -10,7 +10,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
-#include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/lane_math.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/lane_math.hpp"
 #include "hmps/laws/law.hpp"
 
 /// What every law must satisfy, whatever its formula.

@@ -23,7 +23,7 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/lane_math.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 
