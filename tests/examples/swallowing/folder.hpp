@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "../../reference/message_of.hpp"
+
 /// A folder of its own for the running test, removed with all it holds at its end.
 struct TestFolder {
   std::filesystem::path path;
@@ -23,13 +25,4 @@ struct TestFolder {
   ~TestFolder() { std::filesystem::remove_all(path); }
 };
 
-/// What the error of `action` says; empty if there is none.
-template <class Error, class Action>
-[[nodiscard]] std::string message_of(Action&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
+using hmps_test::message_of;

@@ -9,29 +9,10 @@ import xml.etree.ElementTree
 
 import vtk
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
+from vtk_files import read, same, values  # noqa: E402
+
 POSITIONS = [[0, 0.25, -1], [1, 2, 3], [-4, 5.5, 6]]
-
-
-def read(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    errors = []
-    reader.AddObserver("ErrorEvent", lambda *_: errors.append("VTK could not read " + str(path)))
-    reader.SetFileName(str(path))
-    reader.Update()
-    if errors:
-        sys.exit(errors[0])
-    return reader.GetOutput()
-
-
-def values(array):
-    rows = [list(array.GetTuple(i)) for i in range(array.GetNumberOfTuples())]
-    return [row[0] for row in rows] if array.GetNumberOfComponents() == 1 else rows
-
-
-def same(what, found, expected):
-    if found != expected:
-        sys.exit(f"{what} is {found}, expected {expected}")
-
 
 folder = pathlib.Path(sys.argv[1])
 frames = xml.etree.ElementTree.parse(folder / "frames.pvd").getroot().findall("Collection/DataSet")

@@ -10,11 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "bodies.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 #include "plain_contact.hpp"
 
 namespace {
+
+using hmps_test::message_of;
 
 using bodies::Case;
 using hmps::CorrectedFriction;
@@ -425,17 +428,6 @@ TEST(Kick, IsWhatTheForcesGive) {
                hmps::InputError);
 }
 
-/// The message of the `InputError` that `call` throws; empty if it throws none.
-template <class Call>
-std::string refusal(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 TEST(Kick, RefusesWhatIsTooLightForThePenalty) {
   bodies::Pile<double, 3> pile(0.9);
   const auto x = hmps::vectors(pile.x), v = hmps::vectors(pile.v);
@@ -444,7 +436,7 @@ TEST(Kick, RefusesWhatIsTooLightForThePenalty) {
   const auto kick = [&](const auto& density, const hmps::PairSettings& pair, bool fixed_plate) {
     MetaballContact<double, 3> contact(with_friction);  // k~ = 0.3 at 1000 kg/m3
     pile.declare(contact, pair, fixed_plate);
-    return refusal([&] { contact.kick(x, v, F, density, dt); });
+    return message_of([&] { contact.kick(x, v, F, density, dt); });
   };
   EXPECT_TRUE(kick(hmps::scalars(rho), {}, false).empty());
   const Index light = pile.block.bottom[7];
@@ -506,20 +498,20 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
     return made;
   };
   Made made = make();
-  const std::string again = refusal([&] { made.contact.add_pair(made.plate, made.block); });
+  const std::string again = message_of([&] { made.contact.add_pair(made.plate, made.block); });
   EXPECT_NE(again.find("'plate' and 'block' already are contact pair 0"), std::string::npos) << again;
-  EXPECT_FALSE(refusal([&] { made.contact.add_pair(made.block, made.plate); }).empty()) << "reversed";
+  EXPECT_FALSE(message_of([&] { made.contact.add_pair(made.block, made.plate); }).empty()) << "reversed";
 
   const auto twin = made.contact.add_organ({.name = "twin", .slaves = bottom, .masters = lower, .prescribed = {}});
-  const std::string twice = refusal([&] { made.contact.add_pair(made.plate, twin); });
+  const std::string twice = message_of([&] { made.contact.add_pair(made.plate, twin); });
   EXPECT_NE(twice.find("'twin'"), std::string::npos) << twice;
   EXPECT_NE(twice.find(std::to_string(pile.plate.top.front())), std::string::npos) << twice;
-  EXPECT_FALSE(refusal([&] { made.contact.add_pair(twin, made.plate); }).empty()) << "reversed";
+  EXPECT_FALSE(message_of([&] { made.contact.add_pair(twin, made.plate); }).empty()) << "reversed";
 
   // Of the two roles one is enough: slaves that the block has too, of the plate's masters.
   const auto skin = made.contact.add_organ({.name = "skin", .slaves = bottom, .masters = {}, .prescribed = {}});
   const hmps::PairSettings second{.roles = hmps::Roles::only_second_is_slave};
-  EXPECT_FALSE(refusal([&] { made.contact.add_pair(made.plate, skin, second); }).empty());
+  EXPECT_FALSE(message_of([&] { made.contact.add_pair(made.plate, skin, second); }).empty());
   // What was refused has left nothing behind.
   bodies::Pile<double, 3> expected = pile, seen = pile;
   Made fresh = make();

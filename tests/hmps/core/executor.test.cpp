@@ -10,14 +10,12 @@
 #include <numeric>
 #include <string>
 
+#include "../../reference/backwards.hpp"
+
 namespace {
 
-struct Backwards {
-  template <class Body>
-  void operator()(std::size_t n, Body&& body) const {
-    for (std::size_t i = n; i-- > 0;) body(i);
-  }
-};
+using hmps_test::Backwards;
+
 struct TakesNoBody {
   void operator()(std::size_t) const {}
 };

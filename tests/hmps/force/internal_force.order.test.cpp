@@ -4,17 +4,14 @@
 
 #include <numeric>
 
+#include "../../reference/backwards.hpp"
 #include "../executors/same_bits.hpp"
 #include "equations.hpp"
 
 namespace {
 
-struct Backwards {
-  template <class Body>
-  void operator()(std::size_t n, Body&& body) const {
-    for (std::size_t i = n; i-- > 0;) body(i);
-  }
-};
+using hmps_test::Backwards;
+
 struct Shuffled {
   template <class Body>
   void operator()(std::size_t n, Body&& body) const {

@@ -7,17 +7,11 @@
 #include <fstream>
 #include <string>
 
+#include "../../reference/message_of.hpp"
+
 namespace {
 
-template <class Call>
-std::string failure(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
+using hmps_test::message_of;
 
 void expect_contains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << text << "\n  lacks: " << part;
@@ -39,7 +33,7 @@ TEST(Csv, ReadsNamedColumnsOfNumbers) {
 }
 
 TEST(Csv, NamesSourceLineAndColumnOfWhatIsWrong) {
-  const auto message = [](const char* text) { return failure([&] { (void)hmps::parse_csv(text, "trace.csv"); }); };
+  const auto message = [](const char* text) { return message_of([&] { (void)hmps::parse_csv(text, "trace.csv"); }); };
   expect_contains(message("t,x\n0,1\n\n1,b\n"), "trace.csv, line 4: 'b' in column 'x' is not a finite number");
   expect_contains(message("t,x\n0,nan\n"), "line 2: 'nan'");
   expect_contains(message("t,x\n0,\n"), "line 2: '' in column 'x'");
@@ -50,9 +44,9 @@ TEST(Csv, NamesSourceLineAndColumnOfWhatIsWrong) {
   expect_contains(message("t,,x\n"), "line 1: column 2 has no name");
   expect_contains(message(""), "trace.csv is empty");
   expect_contains(message("# nothing\n"), "trace.csv is empty");
-  expect_contains(failure([] { (void)hmps::parse_csv("t,x\n", "trace.csv").column("y"); }),
+  expect_contains(message_of([] { (void)hmps::parse_csv("t,x\n", "trace.csv").column("y"); }),
                   "trace.csv has no column 'y'; it has t, x");
-  expect_contains(failure([] { (void)hmps::read_csv("no/such/trace.csv"); }), "cannot open no/such/trace.csv");
+  expect_contains(message_of([] { (void)hmps::read_csv("no/such/trace.csv"); }), "cannot open no/such/trace.csv");
 }
 
 TEST(Csv, QuotesNoRawBytesAndNotEveryColumn) {
@@ -60,11 +54,11 @@ TEST(Csv, QuotesNoRawBytesAndNotEveryColumn) {
   for (int k = 1; k < 50'000; ++k) header += ",c" + std::to_string(k);
   const auto table = hmps::parse_csv(header + "\n", "wide.csv");
   EXPECT_EQ(table.columns(), 50'000u);
-  const std::string text = failure([&] { (void)table.column("x"); });
+  const std::string text = message_of([&] { (void)table.column("x"); });
   expect_contains(text, "it has t, c1");
   expect_contains(text, "c19 and 49980 more");
-  expect_contains(failure([&] { (void)hmps::parse_csv(header + ",c7\n", "wide.csv"); }), "'c7' is named twice");
-  expect_contains(failure([] { (void)hmps::parse_csv("t\x1b\n\xff\n", "raw.csv"); }), "'\\xff' in column 't\\x1b'");
+  expect_contains(message_of([&] { (void)hmps::parse_csv(header + ",c7\n", "wide.csv"); }), "'c7' is named twice");
+  expect_contains(message_of([] { (void)hmps::parse_csv("t\x1b\n\xff\n", "raw.csv"); }), "'\\xff' in column 't\\x1b'");
 }
 
 TEST(Csv, ReadsFiles) {
@@ -83,11 +77,11 @@ TEST(Csv, MakesKeyframesInMetres) {
   EXPECT_DOUBLE_EQ(path.value(0.5)[1], 1e-3);
   EXPECT_DOUBLE_EQ(hmps::track(table, "turn", 2).value(1), 180);
   EXPECT_DOUBLE_EQ(hmps::track(table, "turn", 1, "ant").value(2), 90);
-  expect_contains(failure([&] { (void)hmps::track(table, "left"); }), "no column 'left'");
+  expect_contains(message_of([&] { (void)hmps::track(table, "left"); }), "no column 'left'");
   const auto disorder = hmps::parse_csv("t,x\n0,0\n# pause\n0,1\n", "hyoid.csv");
-  expect_contains(failure([&] { (void)hmps::track(disorder, "x"); }),
+  expect_contains(message_of([&] { (void)hmps::track(disorder, "x"); }),
                   "hyoid.csv, line 4: the time 0 s does not follow 0 s");
-  expect_contains(failure([&] { (void)hmps::track(hmps::parse_csv("t,x\n", "hyoid.csv"), "x"); }), "no row");
+  expect_contains(message_of([&] { (void)hmps::track(hmps::parse_csv("t,x\n", "hyoid.csv"), "x"); }), "no row");
 }
 
 }  // namespace

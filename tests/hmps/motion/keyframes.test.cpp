@@ -8,7 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
+
 namespace {
+
+using hmps_test::message_of;
 
 using hmps::Keyframe;
 using hmps::Keyframes;
@@ -87,24 +91,14 @@ TEST(Keyframes, OneKeyIsAConstant) {
   }
 }
 
-template <class Call>
-std::string failure(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(Keyframes, RefusesDisorderAndNamesTheKey) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Track(std::vector<Keyframe<1>>{}), hmps::InputError);
-  const auto twice = failure([] { Track{{0.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}}; });
+  const auto twice = message_of([] { Track{{0.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}}; });
   EXPECT_NE(twice.find("keyframe 2 at 1 s follows one at 1 s"), std::string::npos) << twice;
-  EXPECT_NE(failure([] { Track{{0.0, 0.0}, {-1.0, 1.0}}; }).find("keyframe 1"), std::string::npos);
-  EXPECT_NE(failure([&] { Track{{nan, 0.0}}; }).find("keyframe 0"), std::string::npos);
-  EXPECT_NE(failure([&] { Keyframes<2>{{0.0, {0.0, nan}}}; }).find("component 1 of keyframe 0"), std::string::npos);
+  EXPECT_NE(message_of([] { Track{{0.0, 0.0}, {-1.0, 1.0}}; }).find("keyframe 1"), std::string::npos);
+  EXPECT_NE(message_of([&] { Track{{nan, 0.0}}; }).find("keyframe 0"), std::string::npos);
+  EXPECT_NE(message_of([&] { Keyframes<2>{{0.0, {0.0, nan}}}; }).find("component 1 of keyframe 0"), std::string::npos);
 }
 
 }  // namespace

@@ -8,30 +8,11 @@ import sys
 
 import vtk
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
+from vtk_files import read, same, values  # noqa: E402
+
 POSITIONS = [[0, 0.25, -1], [1, 2, 3], [-4, 5.5, 6]]
 IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1]
-
-
-def read(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    errors = []
-    reader.AddObserver("ErrorEvent", lambda *_: errors.append("VTK could not read " + str(path)))
-    reader.SetFileName(str(path))
-    reader.Update()
-    if errors:
-        sys.exit(errors[0])
-    return reader.GetOutput()
-
-
-def values(array):
-    rows = [list(array.GetTuple(i)) for i in range(array.GetNumberOfTuples())]
-    return [row[0] for row in rows] if array.GetNumberOfComponents() == 1 else rows
-
-
-def same(what, found, expected):
-    if found != expected:
-        sys.exit(f"{what}: {found}, expected {expected}")
-
 
 folder = pathlib.Path(sys.argv[1])
 for name, cells, kind in (("cloud", 3, vtk.VTK_VERTEX), ("surface", 2, vtk.VTK_TRIANGLE)):

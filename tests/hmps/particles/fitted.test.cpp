@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/particles/support.hpp"
@@ -18,6 +19,8 @@
 #include "hmps/shapes/combine.hpp"
 
 namespace {
+
+using hmps_test::message_of;
 
 using hmps::Box;
 using hmps::fit_particles;
@@ -218,49 +221,40 @@ TEST(FitParticles, TellsItsProgress) {
   EXPECT_LE(move, 0.2 / 40 + 1e-12);
 }
 
-template <class Fit>
-[[nodiscard]] std::string refusal(Fit&& fit) {
-  try {
-    fit();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 TEST(FitParticles, RefusesWhatCannotBeFitted) {
   const hmps::Ball<double, 3> ball{.radius = 2};
   const Box<double, 3> box{V3::Constant(-3), V3::Constant(3)};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto starts = [](const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; };
   for (const double spacing : {0.0, -1.0, nan})
-    EXPECT_TRUE(starts(refusal([&] { (void)fit_particles(ball, box, spacing); }), "hmps: the lattice spacing is "));
-  EXPECT_TRUE(starts(refusal([&] {
+    EXPECT_TRUE(starts(message_of([&] { (void)fit_particles(ball, box, spacing); }), "hmps: the lattice spacing is "));
+  EXPECT_TRUE(starts(message_of([&] {
                        (void)fit_particles(ball, Box<double, 3>{box.upper, box.lower}, 1.0);
                      }),
                      "hmps: the box"));
-  EXPECT_TRUE(starts(refusal([&] {
+  EXPECT_TRUE(starts(message_of([&] {
                        (void)fit_particles(ball, Box<double, 3>{V3(0, 0, 0), V3(1, 1, 0)}, 1.0);
                      }),
                      "hmps: the box to fit particles in"));
-  EXPECT_TRUE(starts(refusal([&] { (void)fit_particles(hmps::Ball<double, 3>{.radius = -1}, box, 1.0); }),
+  EXPECT_TRUE(starts(message_of([&] { (void)fit_particles(hmps::Ball<double, 3>{.radius = -1}, box, 1.0); }),
                      "hmps: the shape has no volume in the box"));
   EXPECT_TRUE(
-      starts(refusal([&] { (void)fit_particles([&](const V3& x) { return x[0] > 1 ? nan : ball(x); }, box, 1.0); }),
+      starts(message_of([&] { (void)fit_particles([&](const V3& x) { return x[0] > 1 ? nan : ball(x); }, box, 1.0); }),
              "hmps: the shape is NaN at ("));
   for (const hmps::FitSettings& bad :
        {hmps::FitSettings{.least_layers = 0}, hmps::FitSettings{.least_layers = 9},
         hmps::FitSettings{.thinnest_spacing = 0}, hmps::FitSettings{.thinnest_spacing = 1.1},
         hmps::FitSettings{.longest_edge = 0}, hmps::FitSettings{.iterations = 0}})
-    EXPECT_NE(refusal([&] { (void)fit_particles(ball, box, 1.0, bad); }), "none");
+    EXPECT_NE(message_of([&] { (void)fit_particles(ball, box, 1.0, bad); }), "none");
 
   // A plate of one spacing holds one layer, not two of the default; a fin of it is found on a body that is thick.
   const Box<double, 3> plate{V3(-2.5, -2.5, 0), V3(2.5, 2.5, 1)};
-  EXPECT_TRUE(starts(refusal([&] { (void)fit_particles(plate, box, 1.0); }), "hmps: the body is about 1 m thick at ("));
+  EXPECT_TRUE(
+      starts(message_of([&] { (void)fit_particles(plate, box, 1.0); }), "hmps: the body is about 1 m thick at ("));
   EXPECT_NEAR(static_cast<double>(fit_particles(plate, box, 1.0, {.least_layers = 1}).size()), 25, 1);
   const auto finned =
       hmps::unite(Box<double, 3>{V3(-3, -3, -3), V3(3, 3, 3)}, Box<double, 3>{V3(0, -3, 0), V3(12, 3, 0.8)});
-  const std::string text = refusal([&] {
+  const std::string text = message_of([&] {
     (void)fit_particles(finned, Box<double, 3>{V3(-4, -4, -4), V3(13, 4, 4)}, 1.0);
   });
   EXPECT_TRUE(starts(text, "hmps: the body is about 0.8 m thick at (")) << text;

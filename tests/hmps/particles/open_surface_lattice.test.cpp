@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "../../reference/backwards.hpp"
+#include "../../reference/message_of.hpp"
 #include "../shapes/surfaces.hpp"
 
 namespace {
@@ -22,23 +24,6 @@ template <class S>
 class OpenSurfaceLattice : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(OpenSurfaceLattice, Scalars);
-
-struct Backwards {
-  template <class Body>
-  void operator()(std::size_t n, Body&& body) const {
-    for (std::size_t i = n; i-- > 0;) body(i);
-  }
-};
-
-template <class Call>
-std::string failure(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 TYPED_TEST(OpenSurfaceLattice, ClosedSurfacesAreFilledAsEver) {
   using S = TypeParam;
@@ -115,7 +100,7 @@ TYPED_TEST(OpenSurfaceLattice, SaysWhatItCannotFill) {
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
   const auto message = [](const auto& mesh, double spacing) {
-    return failure([&] { (void)hmps::fill_open_lattice(mesh, static_cast<S>(spacing)); });
+    return message_of([&] { (void)hmps::fill_open_lattice(mesh, static_cast<S>(spacing)); });
   };
   auto turned = box;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "../../reference/backwards.hpp"
 #include "../shapes/surfaces.hpp"
 
 namespace {
@@ -21,13 +22,6 @@ template <class S>
 class SurfaceLattice : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SurfaceLattice, Scalars);
-
-struct Backwards {
-  template <class Body>
-  void operator()(std::size_t n, Body&& body) const {
-    for (std::size_t i = n; i-- > 0;) body(i);
-  }
-};
 
 TYPED_TEST(SurfaceLattice, BoxOnTheSitesHoldsExactlyItsVolume) {
   using S = TypeParam;

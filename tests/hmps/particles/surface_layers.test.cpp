@@ -10,21 +10,17 @@
 #include <random>
 #include <vector>
 
+#include "../../reference/backwards.hpp"
 #include "hmps/particles/fitted.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace {
 
+using hmps_test::Backwards;
+
 using V = hmps::Vector<double, 3>;
 using Indices = std::vector<hmps::Index>;
-
-struct Backwards {
-  template <class Body>
-  void operator()(std::size_t n, Body&& body) const {
-    for (std::size_t i = n; i-- > 0;) body(i);
-  }
-};
 
 template <int D>
 Indices where(const std::vector<hmps::Vector<double, D>>& points, const auto& holds) {

@@ -10,9 +10,12 @@
 #include <string>
 #include <tuple>
 
+#include "../../reference/backwards.hpp"
 #include "../../reference/scenes.hpp"
 
 namespace {
+
+using hmps_test::Backwards;
 
 template <class Case>
 class FixedRadius : public testing::Test {};
@@ -30,13 +33,6 @@ std::vector<hmps::Vector<T, D>> cloud(std::size_t n, std::uint64_t seed) {
     for (int d = 0; d < D; ++d) p[d] = static_cast<T>(random(-1, 1));
   return points;
 }
-
-struct Backwards {
-  template <class Body>
-  void operator()(std::size_t n, Body&& body) const {
-    for (std::size_t i = n; i-- > 0;) body(i);
-  }
-};
 
 TYPED_TEST(FixedRadius, FindsWhatBruteForceFinds) {
   using T = std::tuple_element_t<0, TypeParam>;

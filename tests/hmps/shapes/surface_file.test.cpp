@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "../../reference/message_of.hpp"
 #include "surfaces.hpp"
 
 namespace {
@@ -59,16 +60,6 @@ std::string obj(const hmps::SurfaceMesh<S>& mesh) {
   text << "vn 0 0 1\n";
   for (const auto& t : mesh.triangles) text << "f " << t[0] + 1 << "//1 " << t[1] + 1 << "/2/1 " << t[2] + 1 << "\n";
   return text.str();
-}
-
-template <class Call>
-std::string failure(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 void expect_contains(const std::string& text, const std::string& part) {
@@ -148,7 +139,7 @@ TYPED_TEST(SurfaceFile, BinaryStlIsReadWithItsTailButNotWithoutTriangles) {
   std::string short_count = binary_stl(box, "binary");
   short_count[80] = 10;
   const TemporaryFile file(".stl", short_count);
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path()); }),
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(file.path()); }),
                   "announces 10 triangles, which end at byte 584, but 100 bytes follow, enough for 2 more");
 }
 
@@ -164,10 +155,10 @@ TYPED_TEST(SurfaceFile, ObjLinesGoOnAndFacesMayComeFirst) {
   }
   // Lines are counted as the file has them.
   const TemporaryFile beyond(".obj", points + "f 1 2 \\\n 3\nf 1 2 9\n");
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(beyond.path()); }),
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(beyond.path()); }),
                   "line 12: a face names vertex 9 but 8 vertices are in the file");
   const TemporaryFile last(".obj", points + "f 1 2 3 \\");
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(last.path()); }), "is open at 3 edges");
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(last.path()); }), "is open at 3 edges");
 }
 
 TYPED_TEST(SurfaceFile, DoubledFacesGiveTheBodyOrAnError) {
@@ -184,7 +175,7 @@ TYPED_TEST(SurfaceFile, DoubledFacesGiveTheBodyOrAnError) {
       EXPECT_NEAR(hmps::volume(read), 1, 8 * std::numeric_limits<S>::epsilon());
     }
   const TemporaryFile file(".stl", binary_stl(joined(box, reversed(box)), "binary"));
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path()); }), "a part of 24 triangles");
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(file.path()); }), "a part of 24 triangles");
 }
 
 TYPED_TEST(SurfaceFile, OpenSurfacesAreReadOnRequest) {
@@ -194,14 +185,15 @@ TYPED_TEST(SurfaceFile, OpenSurfacesAreReadOnRequest) {
   open.triangles.pop_back();
   const std::string bytes = ascii_stl(open);
   const TemporaryFile file(".stl", bytes);
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path()); }), "read it with .closed = false");
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(file.path()); }), "read it with .closed = false");
   const auto mesh = hmps::read_surface<S>(file.path(), {.scale = 1e-3, .closed = false});
   EXPECT_EQ(mesh.triangles.size(), 11u);
   EXPECT_EQ(hmps::bounds(mesh).upper, V(V::Constant(static_cast<S>(1e-3))));
   // What is cut off between two facets looks like an open surface.
   const TemporaryFile cut(".stl", bytes.substr(0, bytes.rfind("endsolid")));
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(cut.path(), {.closed = false}); }), "without 'endsolid'");
-  expect_contains(failure([&] { (void)hmps::read_surface<S>(file.path(), {.scale = 0}); }), "a scale of 0");
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(cut.path(), {.closed = false}); }),
+                  "without 'endsolid'");
+  expect_contains(message_of([&] { (void)hmps::read_surface<S>(file.path(), {.scale = 0}); }), "a scale of 0");
 }
 
 TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
@@ -209,7 +201,7 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   using V = Vector<S, 3>;
   const auto message = [](const char* ending, const std::string& bytes) {
     const TemporaryFile file(ending, bytes);
-    const std::string text = failure([&] { (void)hmps::read_surface<S>(file.path()); });
+    const std::string text = message_of([&] { (void)hmps::read_surface<S>(file.path()); });
     EXPECT_NE(text.find(file.path()), std::string::npos) << text;
     return text;
   };
@@ -244,7 +236,7 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   expect_contains(message(".stl", ascii_stl(open)), "is open at 3 edges");
   expect_contains(message(".ply", ""), "neither .stl nor .obj");
   expect_contains(message(".vtp", ""), "ParaView");
-  expect_contains(failure([] { (void)hmps::read_obj<S>("no/such/file.obj"); }), "cannot open no/such/file.obj");
+  expect_contains(message_of([] { (void)hmps::read_obj<S>("no/such/file.obj"); }), "cannot open no/such/file.obj");
   EXPECT_THROW((void)hmps::read_stl<S>(std::filesystem::temp_directory_path().string()), hmps::InputError);
 }
 

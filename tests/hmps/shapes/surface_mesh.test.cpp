@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "../../reference/message_of.hpp"
 #include "surfaces.hpp"
 
 namespace {
@@ -19,17 +20,6 @@ template <class S>
 class SurfaceMesh : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SurfaceMesh, Scalars);
-
-/// The message of the exception that `call` throws.
-template <class Call>
-std::string failure(Call&& call) {
-  try {
-    call();
-  } catch (const hmps::InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 /// Every triangle with corners of its own, as STL has it.
 template <class S>
@@ -73,7 +63,7 @@ TYPED_TEST(SurfaceMesh, WeldingJoinsCornersAndDropsNeedles) {
   using S = TypeParam;
   const auto torus = torus_surface<S>(S(2), S(0.5), 12, 8);
   const auto loose = exploded(torus);
-  EXPECT_NE(failure([&] { hmps::require_closed(loose); }).find("open"), std::string::npos);
+  EXPECT_NE(message_of([&] { hmps::require_closed(loose); }).find("open"), std::string::npos);
   auto welded = hmps::weld(loose);
   EXPECT_EQ(welded.vertices.size(), torus.vertices.size());
   EXPECT_EQ(welded.triangles.size(), torus.triangles.size());
@@ -99,22 +89,23 @@ TYPED_TEST(SurfaceMesh, OpenTurnedAndBrokenSurfacesAreNamed) {
   auto open = box;
   open.source = "box.stl";
   open.triangles.pop_back();
-  const std::string text = failure([&] { hmps::require_closed(open); });
+  const std::string text = message_of([&] { hmps::require_closed(open); });
   EXPECT_NE(text.find("box.stl is open at 3 edges"), std::string::npos) << text;
   EXPECT_NE(text.find("fill its holes"), std::string::npos) << text;
   auto turned = box;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
-  EXPECT_NE(failure([&] { hmps::require_closed(turned); }).find("opposite orientation at 3 edges"), std::string::npos);
+  EXPECT_NE(message_of([&] { hmps::require_closed(turned); }).find("opposite orientation at 3 edges"),
+            std::string::npos);
   auto degenerate = box;
   degenerate.triangles.push_back({1, 1, 2});
-  EXPECT_NE(failure([&] { hmps::require_closed(degenerate); }).find("names vertex 1 twice"), std::string::npos);
+  EXPECT_NE(message_of([&] { hmps::require_closed(degenerate); }).find("names vertex 1 twice"), std::string::npos);
   auto beyond = box;
   beyond.triangles.push_back({1, 99, 2});
-  EXPECT_NE(failure([&] { hmps::require_closed(beyond); }).find("names vertex 99"), std::string::npos);
-  EXPECT_NE(failure([&] { (void)hmps::weld(beyond); }).find("names vertex 99"), std::string::npos);
+  EXPECT_NE(message_of([&] { hmps::require_closed(beyond); }).find("names vertex 99"), std::string::npos);
+  EXPECT_NE(message_of([&] { (void)hmps::weld(beyond); }).find("names vertex 99"), std::string::npos);
   auto nan = box;
   nan.vertices[3][1] = std::numeric_limits<S>::quiet_NaN();
-  EXPECT_NE(failure([&] { hmps::require_closed(nan); }).find("vertex 3"), std::string::npos);
+  EXPECT_NE(message_of([&] { hmps::require_closed(nan); }).find("vertex 3"), std::string::npos);
   EXPECT_THROW(hmps::require_closed(hmps::SurfaceMesh<S>{}), hmps::InputError);
   auto bare = box;
   bare.triangles.clear();
@@ -125,7 +116,7 @@ TYPED_TEST(SurfaceMesh, SaysWhichTrianglesAreThereTwice) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
-  const auto message = [](const auto& mesh) { return failure([&] { hmps::require_closed(mesh); }); };
+  const auto message = [](const auto& mesh) { return message_of([&] { hmps::require_closed(mesh); }); };
   auto one_twice = box;
   one_twice.triangles.push_back({2, 1, 0});  // the first one, {0, 2, 1}, begun elsewhere
   EXPECT_NE(message(one_twice).find("13 triangles, of which 1 are there already"), std::string::npos)
@@ -167,14 +158,14 @@ TYPED_TEST(SurfaceMesh, TellsFlapsFromHoles) {
   auto flap = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
   flap.vertices.push_back(V(-1, -1, 1));
   flap.triangles.push_back({0, 4, 8});
-  std::string text = failure([&] { hmps::require_closed(flap); });
+  std::string text = message_of([&] { hmps::require_closed(flap); });
   EXPECT_NE(text.find("is open at 2 edges"), std::string::npos) << text;
   EXPECT_NE(text.find("It also has 1 edges at which an odd number of triangles meet"), std::string::npos) << text;
   // An inner wall from edge to edge leaves no edge open.
   auto wall = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
   wall.triangles.push_back({2, 3, 4});
   wall.triangles.push_back({3, 5, 4});
-  text = failure([&] { hmps::require_closed(wall); });
+  text = message_of([&] { hmps::require_closed(wall); });
   EXPECT_EQ(text.find("open"), std::string::npos) << text;
   EXPECT_NE(text.find("4 edges at which an odd number of triangles meet"), std::string::npos) << text;
   EXPECT_NE(text.find("inner wall"), std::string::npos) << text;
