@@ -77,21 +77,23 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
     return (Friction::needs_load && law.friction > S(0)) || law.damping > S(0);
   });
   if (needs_load) weigh(execute);
+  const auto& active = lists_.active();
   const std::size_t count = (touching_.size() + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
     Batch result;
     for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
       const Index r = touching_[c];
       const RowState& state = state_[r];
-      const PairLaw& law = laws_[lists_.organs().sides()[lists_.active().rows()[r].side].pair];
+      const auto& row = active.rows()[r];
+      const PairLaw& law = laws_[lists_.organs().sides()[row.side].pair];
       S load = 0;
       if (needs_load) {
         // Uses the first of four numbers: a sum of single products would be vectorised, with a rounding that depends on
         // the number of candidates without weight in between.
         Quad of_masters{};
-        for (std::size_t e = lists_.active().rows()[r].begin; e < lists_.active().rows()[r + 1].begin; ++e)
-          of_masters += Quad{load_[lists_.active().master_of()[e]]} * weight_[e];
-        load = of_masters[0] + load_[lists_.active().rows()[r].slave];
+        for (std::size_t e = row.begin; e < active.rows()[r + 1].begin; ++e)
+          of_masters += Quad{load_[active.master_of()[e]]} * weight_[e];
+        load = of_masters[0] + load_[row.slave];
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       Point velocity = state.slip;
@@ -102,7 +104,7 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
       if (law.friction > S(0)) {
         const Point slip = tangential<S, D>(velocity, state.normal);
         if constexpr (has_spring) {
-          Point& elastic = history_.slip(lists_.active().rows()[r].slot).value;
+          Point& elastic = history_.slip(row.slot).value;
           const auto found = spring_friction<S, D>(elastic, slip, std::min(law.stiffness, stick / static_cast<S>(dt)),
                                                    stick, law.friction * normal);
           elastic = found.elastic;
@@ -112,6 +114,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
           force += friction_force<S, D>(slip, stick, law.friction * normal);
           result.count += stick * slip.norm() <= law.friction * normal;
         }
+      } else if constexpr (has_spring) {  // no slip is held, so that none may act once friction is switched on
+        history_.slip(row.slot).value = Point::Zero();
       }
       detail::spread<S>(force, force_[r]);
     }
@@ -144,10 +148,10 @@ typename MetaballContact<S, D, Kernel, Friction>::Point MetaballContact<S, D, Ke
     Quad step = motion_.moved(j);
     step -= own;
     place -= step * (S(0.5) / spacing);
-    wall.add(weight_[e], place, motion_.moved(j));
+    wall.add(weight_[e], place, step);
   }
   wall.finish();
-  const Point moved = wall.moved() - detail::first<D, S>(own), &n = state_[r].normal;
+  const Point moved = wall.moved(), &n = state_[r].normal;
   slip.value = wall.across(wall.turned(slip.value), n) + tangential<S, D>(moved, n);
   return wall.by_turning() / static_cast<S>(dt);
 }

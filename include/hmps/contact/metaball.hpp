@@ -8,8 +8,10 @@
 namespace hmps::inline HMPS_ABI {
 
 /// The kernel that each particle of a wall contributes, with `s = (r / r_e)^2` in `[0, 1]` (squared, to avoid a root
-/// per pair): - `Kernel::radius`: the effective radius in spacings, `r_e / l0`; - `Kernel::value(s)`: c, falling from a
-/// positive value at 0 to 0 at 1; - `Kernel::slope(s)`: dc/ds, negative between.
+/// per pair):
+/// - `Kernel::radius`: the effective radius in spacings, `r_e / l0`;
+/// - `Kernel::value(s)`: c, falling from a positive value at 0 to 0 at 1;
+/// - `Kernel::slope(s)`: dc/ds, negative between.
 ///
 /// Models: `PaperMetaball`, `SmoothMetaball`. Beyond `r_e` it is zero.
 template <class Kernel>

@@ -57,7 +57,7 @@ class NormalDensity {
   [[nodiscard]] S operator()(S y) const { return static_cast<S>(in_spacings(static_cast<double>(y / spacing_))); }
 
   struct Distance {
-    S value = 0;           ///< R_im in m; meaningless unless `inside_reach`.
+    S value = 0;           ///< R_im in m; meaningless unless `reached`.
     bool reached = false;  ///< The sum is positive: the wall is within reach.
     bool deep = false;     ///< Z has saturated: the true distance is `deepest()` or less.
   };

@@ -36,7 +36,7 @@ struct Overlap {
 
 namespace detail {
 
-/// The state of the particles for `overlap_of`.
+/// The state of the particles for `find_overlap`.
 template <int D>
 struct OverlapParticles {
   std::vector<Index> particle;

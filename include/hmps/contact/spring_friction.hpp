@@ -21,7 +21,7 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// Elastic slip follows the positions that contact receives, whoever moves them. It rotates with the masters. It is
 /// lost where contact is lost, by `refresh`, and therefore when a program is stopped and resumed. Evaluating the same
-/// state twice changes nothing. Contact stores the positions of all particles of organs for it.
+/// state twice keeps it, but a wall that rotates then seems to stand still, which changes the damping. Contact stores the positions of all particles of organs for it.
 struct SpringFriction : CorrectedFriction {
   static constexpr bool has_spring = true;
   /// Default of `ContactSettings::damping`. Slaves at the friction limit can excite normal vibrations of a wall,
@@ -58,14 +58,17 @@ struct SpringForce {
 
 /// Friction by return mapping. The elastic slip `trial` (m, of the wall relative to the slave) is cut to what `limit` =
 /// mu |f_nor| (N/m3) supports at `stiffness` (N/m4); the rest is sliding. The force is that of the spring and of a
-/// damping (N s/m4) of the slip velocity `velocity` (m/s), capped at `limit`. Both vectors are tangential; the
-/// stiffness is positive.
+/// damping (N s/m4) of the slip velocity `velocity` (m/s), capped at `limit`. Both vectors are tangential; without
+/// stiffness no elastic slip remains.
 template <class S, int D>
 [[nodiscard]] SpringForce<S, D> spring_friction(const Vector<S, D>& trial, const Vector<S, D>& velocity, S stiffness,
                                                 S damping, S limit) {
   SpringForce<S, D> result{Vector<S, D>::Zero(), trial, true};
   const S spring = stiffness * trial.norm();
-  if (spring > limit) result.elastic *= limit / spring;
+  if (!(stiffness > S(0)))  // both ends are prescribed: nothing can slip back
+    result.elastic.setZero();
+  else if (spring > limit)
+    result.elastic *= limit / spring;
   result.force = stiffness * result.elastic + damping * velocity;
   const S size = result.force.norm();
   result.sticks = size <= limit;

@@ -88,6 +88,7 @@ class SurfaceCorrection {
             x.size(), " particles; give views of all particles, as the reference positions were");
     require_size(F, x.size(), "deformation gradients");
     require_size(places, x.size(), "places for contact");
+    require_apart(places, "places for contact", x, "positions");
     execute(x.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) places(i, c) = static_cast<P>(x(i, c));
     });

@@ -14,9 +14,10 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The motion of a wall at a slave: the rigid motion that fits its masters best, by weighted least squares. The mean
-/// motion of the masters, \paper{31}, is that of their centre, half a spacing or more behind the surface, and differs
-/// from that at the slave if the wall rotates.
+/// The motion of a wall at a slave and relative to it: the rigid motion that fits its masters best, by weighted least
+/// squares. Their common motion must be subtracted before: where masters do not determine a rotation, its rounding
+/// would become one. The mean motion of the masters, \paper{31}, is that of their centre, half a spacing or more behind
+/// the surface, and differs from that at the slave if the wall rotates.
 template <class S, int D>
 class WallMotion {
  public:
@@ -25,8 +26,8 @@ class WallMotion {
 
   /// `spacing` in m.
   explicit WallMotion(S spacing) : spacing_(spacing) {}
-  /// Adds a master of weight `w` (they sum to 1) at `r` from the slave, in spacings, that moves by `moved` (m); both
-  /// padded with zeros. `r` is that at the middle of the motion, which makes rotations of any angle exact.
+  /// Adds a master of weight `w` (they sum to 1) at `r` from the slave, in spacings, that moves by `moved` (m) relative
+  /// to it; both padded with zeros. `r` is that at the middle of the motion, which makes rotations of any angle exact.
   HMPS_INLINE void add(S w, const Quad<S>& r, const Quad<S>& moved) {
     const Quad<S> weighted = r * w;
     middle_ += weighted;
@@ -57,7 +58,8 @@ class WallMotion {
     }
   }
 
-  /// The displacement of the wall at the slave, in m: the mean of its masters plus the effect of its rotation.
+  /// The displacement of the wall at the slave, relative to it, in m: the mean of its masters plus the effect of its
+  /// rotation.
   [[nodiscard]] Point moved() const { return first<D, S>(mean_) + by_turning(); }
   [[nodiscard]] Point by_turning() const { return -(spin_ * first<D, S>(middle_)); }
   /// `vector` rotated with the wall; its length is preserved.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "bodies.hpp"
 #include "hmps/contact/contact.hpp"
@@ -81,6 +82,38 @@ TEST(Sticking, TurnsWithTheWall) {
   const double friction = 0.3 * density / (dt * dt) * 1e-3 * l0;  // of one contact
   EXPECT_LT(off, 1e-3 * friction);
   EXPECT_GT(largest, friction);
+}
+
+/// A thread of masters tells no rotation about itself. What slave and wall share of their motion must not leak into the
+/// elastic slip, however far they travel.
+TEST(Sticking, TravelsWithAThread) {
+  std::vector<Point> x, v, f;
+  std::vector<Index> thread;
+  for (int k = -8; k <= 8; ++k) {  // so close that they reach as far as a wall
+    thread.push_back(static_cast<Index>(x.size()));
+    x.push_back(Point(0.1 * k * l0, 0, 0));
+  }
+  const std::vector<Index> slave{static_cast<Index>(x.size())};
+  x.push_back(Point(0.02 * l0, 0.1 * l0, 0.9 * l0));
+  v.assign(x.size(), Point::Zero());
+  Contact contact({.spacing = l0, .density = density, .friction = 1});
+  const auto wall = contact.add_organ({.name = "thread", .slaves = {}, .masters = thread, .prescribed = {}});
+  const auto body = contact.add_organ({.name = "slave", .slaves = slave, .masters = {}, .prescribed = {}});
+  contact.add_pair(wall, body, {.roles = hmps::Roles::only_second_is_slave});
+  const auto pushed = [&] {
+    f.assign(x.size(), Point::Zero());
+    EXPECT_EQ(contact(hmps::vectors(x), hmps::vectors(v), dt, hmps::vectors(f)).contacts, 1U);
+    return f.back();
+  };
+  (void)pushed();
+  x.back()[0] += 1e-3 * l0;
+  const Point before = pushed();
+  for (int step = 0; step < 1000; ++step) {
+    for (Point& place : x) place += Point(0.3, 0.2, -0.1) * l0;
+    (void)pushed();
+  }
+  EXPECT_GT(std::abs(before[0]), 0);
+  EXPECT_LT((pushed() - before).norm(), 1e-6 * before.norm());
 }
 
 /// Off the wall for one call, or refreshed: no elastic slip is left.
