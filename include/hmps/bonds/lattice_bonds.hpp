@@ -83,7 +83,9 @@ class LatticeBonds : public Blocks<K, D> {
 
   /// The slot from which on the last of the rows of `block` reads.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
-    return static_cast<std::size_t>(std::max(runs_[first_run_[(block + 1) * directions] - 1].first, 0));
+    const std::size_t end = first_run_[(block + 1) * directions];
+    if (end == first_run_[block * directions]) return block * width;
+    return static_cast<std::size_t>(std::max(runs_[end - 1].first, 0));
   }
 
   /// A row: at most one bond per lane of a block. The neighbour of lane l is slot `first + l`; r0 has nonzero

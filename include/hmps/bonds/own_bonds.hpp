@@ -100,12 +100,12 @@ class OwnBonds {
   }
 
   [[nodiscard]] const std::vector<Bond>& operator[](std::size_t i) const { return bonds_[i]; }
-  /// The longest bond (m), zero if there is none. Throws `InputError` for two bonded particles at one place.
+  /// The longest bond (m), 1 if there is none. Throws `InputError` for two bonded particles at one place.
   template <class T, int D>
   [[nodiscard]] double longest(const VectorView<T, D>& reference) const {
     double square = 0;
     for_each_length(reference, [&](std::size_t, double s) { square = std::max(square, s); });
-    return std::sqrt(square);
+    return square > 0 ? std::sqrt(square) : 1;
   }
   /// The mean over all particles of the length of their shortest bond (m), used as the spacing for their order. 1 if
   /// there is no bond.

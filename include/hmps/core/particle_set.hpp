@@ -12,8 +12,8 @@
 namespace hmps::inline HMPS_ABI {
 
 /// A set of particles, usable as a list and as a predicate: `set(i)` is whether particle i belongs to it, and
-/// `set.indices()` are its particles in order. It can be passed wherever the library takes a predicate or a list of
-/// particles; `~set` is the complement:
+/// `set.indices()` are its particles in order. It can be passed wherever the library takes a predicate of particles,
+/// and `indices()` wherever it takes a list; `~set` is the complement:
 ///
 ///     const hmps::ParticleSet clamped(X.size(), [&](std::size_t i) { return X(i, 0) < 0; });
 ///     hmps::hold(v, clamped);

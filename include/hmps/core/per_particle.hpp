@@ -26,15 +26,22 @@ struct IsScalarView<ScalarView<T>> : std::true_type {};
 struct OneParticle {
   std::size_t index;
 
-  /// A parameter of the particle.
+  /// A parameter of the particle. Throws `InputError` if the view ends before it.
   template <class P>
   [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
+    require(index < parameter.size(), "hmps: the parameters hold ", parameter.size(), " particles, but particle ",
+            index, " asks for its own; give one for each");
     return static_cast<double>(parameter[index]);
   }
-  /// A parameter of the particle's body: `table[body[i]]`.
+  /// A parameter of the particle's body: `table[body[i]]`. Throws `InputError` for a body that is not in the table.
   template <class P, class B>
   [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
-    return static_cast<double>(table[static_cast<std::size_t>(body[index])]);
+    require(index < body.size(), "hmps: the bodies hold ", body.size(), " particles, but particle ", index,
+            " asks for its own; give one for each");
+    const auto b = static_cast<std::size_t>(body[index]);
+    require(b < table.size(), "hmps: particle ", index, " belongs to body ", +body[index],
+            " but the table of parameters has ", table.size(), " bodies; number them from 0");
+    return static_cast<double>(table[b]);
   }
 };
 

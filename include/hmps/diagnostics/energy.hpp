@@ -12,6 +12,7 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/force/force_energy.hpp"
 #include "hmps/lanes/staging.hpp"
 #include "hmps/laws/law.hpp"
 #include "hmps/terms/artificial.hpp"
@@ -110,6 +111,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   require_size(x, bonds.size(), "positions");
   require_size(F, bonds.size(), "deformation gradients");
   require_positive(volume, bonds.size(), "volume", "m3");
+  detail::require_quantity(modulus, bonds.size(), "moduli of the stabiliser");
   using K = typename B::Scalar;
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
   const Vector<double, D> common = detail::common_displacement(bonds, x);
@@ -124,8 +126,8 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {
-        const double stiffness = artificial_coefficient(static_cast<double>(detail::value_at(modulus, OneParticle{i})),
-                                                        D, 1.0 / static_cast<double>(bonds.shape_trace(i)));
+        const double stiffness = artificial_coefficient(static_cast<double>(at_particle(modulus, i)), D,
+                                                        1.0 / static_cast<double>(bonds.shape_trace(i)));
         return static_cast<double>(at_particle(volume, i)) * stiffness * 0.5 * error[i];
       },
       std::plus<>{}, execute);
@@ -144,26 +146,13 @@ template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, E
   require_size(F, bonds.size(), "deformation gradients");
   require_positive(volume, bonds.size(), "volume", "m3");
   const auto scales = detail::neighbourhood_scales(bonds);
-  const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
-  const auto mean = [&](std::size_t i, const auto& scaled) {
-    double sum = scaled(i);
-    bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scaled(j); });
-    return scale(i) * sum;
-  };
-  const auto once = [&](std::size_t i) {
-    return mean(i, [&](std::size_t k) {
-      const Matrix<double, D> gradient = F[k].template cast<double>();
-      return scale(k) * (determinant(gradient) - 1);
-    });
-  };
-  std::vector<double> means(Means == 2 ? bonds.size() : 0);
-  execute(means.size(), [&](std::size_t i) { means[i] = once(i); });
+  detail::require_quantity(bulk, bonds.size(), "bulk moduli");
+  const auto theta = detail::mean_dilatations(bonds, F, scales, Means, execute);
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {
-        const double theta = Means == 1 ? once(i) : mean(i, [&](std::size_t k) { return scale(k) * means[k]; });
-        return static_cast<double>(at_particle(volume, i)) *
-               static_cast<double>(detail::value_at(bulk, OneParticle{i})) * 0.5 * theta * theta;
+        return static_cast<double>(at_particle(volume, i)) * static_cast<double>(at_particle(bulk, i)) * 0.5 *
+               theta[i] * theta[i];
       },
       std::plus<>{}, execute);
 }

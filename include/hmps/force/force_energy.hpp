@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -22,6 +21,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/parts_of_force.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -95,27 +95,26 @@ template <class Term, Bonds B>
 [[nodiscard]] double energy_of_term(const Term& term, const ParticleState<B>& particle) {
   using K = typename B::Scalar;
   constexpr int D = B::dimension;
+  double sum = 0;
   if constexpr (PairTerm<Term, K, D>) {
     static_assert(
         requires(const BondState<double, D>& bond) {
           { term.energy(bond) } -> std::convertible_to<double>;
         },
         "hmps: a pair term has an energy only with energy(bond), of a BondState<double, D>, in J/m3");
-    double sum = 0;
     particle.visit_bonds([&](const Vector<double, D>& r0, const Vector<double, D>& relative, double w) {
       sum += 0.5 * static_cast<double>(term.energy(BondState<double, D>(r0, relative, w)));
     });
-    return sum;
-  } else if constexpr (CouplingTerm<Term, K, D> || DilatationTerm<Term, K, D> || BodyForceTerm<Term, K, D>) {
+  }
+  if constexpr (CouplingTerm<Term, K, D> || DilatationTerm<Term, K, D> || BodyForceTerm<Term, K, D>) {
     static_assert(
         requires {
           { term.energy(particle) } -> std::convertible_to<double>;
         },
         "hmps: this term has no energy(particle), of a ParticleState, in J/m3; let it return 0 if it keeps none");
-    return static_cast<double>(term.energy(particle));
-  } else {
-    return 0;
+    sum += static_cast<double>(term.energy(particle));
   }
+  return sum;
 }
 
 /// theta of `MeanDilatation` of each particle, from the deformation gradients `F`; the mean is taken `means` times.
@@ -125,7 +124,9 @@ template <Bonds B, class Gradients, class E>
                                                    const E& execute) {
   const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
   std::vector<double> theta(bonds.size()), mean(bonds.size());
-  execute(bonds.size(), [&](std::size_t i) { theta[i] = determinant(F[i]) - 1; });
+  execute(bonds.size(), [&](std::size_t i) {
+    theta[i] = determinant(Matrix<double, B::dimension>(F[i].template cast<double>())) - 1;
+  });
   for (int pass = 0; pass < means; ++pass) {
     execute(bonds.size(), [&](std::size_t i) {
       double sum = scale(i) * theta[i];
@@ -148,7 +149,7 @@ template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
   for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = x[i].template cast<double>();
   std::vector<Matrix<double, B::dimension>> F(bonds.size());
   deformation_gradient(bonds, x, matrices(F), execute);
-  constexpr int means = std::max({0, means_of<Terms, typename B::Scalar, B::dimension>()...});
+  constexpr int means = PartsOfForce<typename B::Scalar, B::dimension, Terms...>::means;
   std::vector<double> theta;
   if (scales != nullptr) theta = mean_dilatations(bonds, F, *scales, means, execute);
   using Energies = std::array<double, N>;

@@ -133,6 +133,7 @@ class ForceSweeps {
     const std::size_t last = bonds.last_slot(block);
     displacement_.prefetch(last + ahead);
     velocity_.prefetch(last + ahead);
+    damping_each_.prefetch(last + ahead);
     coupling_.prefetch(last + ahead);
     Vector<T, D> force, u, v, drag;
     T c(0);

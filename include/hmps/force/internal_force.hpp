@@ -59,7 +59,8 @@ class InternalForce {
 
   /// From now on, evaluates only what the particles with `moves(i)` need, i.e. those that follow the force. The forces
   /// of the others are unspecified. Terms such as `record` see the particles that move, those bonded to them, and the
-  /// rest of their blocks. Particles deep inside a region with prescribed motion then cost no time.
+  /// rest of their blocks. Particles deep inside a region with prescribed motion then cost only the copy of their
+  /// state.
   template <class Moves>
   requires std::predicate<Moves&, std::size_t>
   void restrict_to(Moves&& moves) {

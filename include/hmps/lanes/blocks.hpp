@@ -14,6 +14,8 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/anchored.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/lanes.hpp"
@@ -64,8 +66,12 @@ class Blocks : public detail::Anchored {
 
   /// Displacements are rounded to `K` after that of one particle was subtracted, in the middle of the order of the
   /// sweeps: `particle(size() / 2)`. From now on `common` (m) is subtracted instead, so that parts of a body, each on a
-  /// machine of its own, round as the whole does.
-  void subtract_displacement(const Vector<double, D>& common) { common_ = common; }
+  /// machine of its own, round as the whole does. Throws `InputError` if it is not finite.
+  void subtract_displacement(const Vector<double, D>& common) {
+    require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
+            ") m; give finite numbers");
+    common_ = common;
+  }
   /// What `subtract_displacement` was given, if it was called.
   [[nodiscard]] const std::optional<Vector<double, D>>& subtracted_displacement() const { return common_; }
 

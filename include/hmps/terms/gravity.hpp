@@ -40,10 +40,7 @@ struct Gravity {
   }
 
   /// Throws `InputError` if the density is a view of the wrong size, or not positive at one of `size` particles.
-  void check(std::size_t size) const {
-    detail::require_quantity(density, size, "densities of gravity");
-    require_positive(density, size, "density of gravity", "kg/m3");
-  }
+  void check(std::size_t size) const { require_positive(density, size, "density of gravity", "kg/m3"); }
 
   /// Adds the weight to the force densities `f` (N/m3), for scenes whose forces are not all in one `internal_force`.
   /// Throws `InputError` for a density that is not positive or has the wrong size.

@@ -106,7 +106,7 @@ template <class P, class S>
       chosen.moduli.push_back(shear_wave_modulus(mu));
       continue;
     }
-    require(layers[i] >= 2 && layers[i] <= 100, "hmps: the wall at particle ", i, " has ", layers[i],
+    require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
             " layers; it takes two to bend, and more than eight are bulk (0)");
     require(c >= 0.6 - 1e-6 && c <= 1.3, "hmps: the layers at particle ", i, " are ", c,
             " spacings apart; give a spacing of which they are 0.6 to 1.3");

@@ -50,19 +50,31 @@ struct ViscousOfEach {
   }
 };
 
+namespace detail {
+/// Throws `InputError` for a number that is no density (kg/m3), or no viscosity (m2/s).
+template <class Rho, class Nu>
+void require_viscous(const Rho& density, const Nu& viscosity) {
+  if constexpr (std::is_arithmetic_v<Rho>)
+    require(is_finite(density) && density > 0, "hmps: the density is ", density, " kg/m3; it must be positive");
+  if constexpr (std::is_arithmetic_v<Nu>)
+    require(is_finite(viscosity) && viscosity >= 0, "hmps: the viscosity is ", viscosity,
+            " m2/s; it must not be negative");
+}
+}  // namespace detail
+
 /// MPS viscosity as a term of `internal_force`: density rho in kg/m3 and kinematic viscosity nu in
 /// m2/s (the paper: 1000 and 2e-3). Throws `InputError` for a density that is not positive or a
 /// negative viscosity.
 [[nodiscard]] inline Viscous viscous(double density, double viscosity) {
-  require(detail::is_finite(density) && density > 0, "hmps: the density is ", density, " kg/m3; it must be positive");
-  require(detail::is_finite(viscosity) && viscosity >= 0, "hmps: the viscosity is ", viscosity,
-          " m2/s; it must not be negative");
+  detail::require_viscous(density, viscosity);
   return {density, viscosity};
 }
-/// The same with views or callables for one or both. Their values are read at each evaluation and not checked.
+/// The same with views or callables for one or both. Their values are read at each evaluation and not checked;
+/// numbers are.
 template <PerParticle Rho, PerParticle Nu>
 requires(!std::is_arithmetic_v<Rho> || !std::is_arithmetic_v<Nu>)
     [[nodiscard]] ViscousOfEach<Rho, Nu> viscous(Rho density, Nu viscosity) {
+  detail::require_viscous(density, viscosity);
   return {std::move(density), std::move(viscosity)};
 }
 

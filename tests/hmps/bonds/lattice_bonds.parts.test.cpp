@@ -3,6 +3,8 @@
 // of the whole: what several machines rely on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
+#include "hmps/terms/record.hpp"
 #include "hmps/terms/viscous.hpp"
 #include "reference/scenes.hpp"
 
@@ -110,9 +113,30 @@ TEST(PartsOfALattice, MayHaveParticlesWithoutBondsOnlyIfTheySaySo) {
   EXPECT_TRUE(bonds.shape_inverse(5).isZero());
 }
 
-TEST(PartsOfALattice, RefuseAxesThatAreNone) {
+// Whole blocks of particles without bonds, and a body without any: F is 1 there, and nothing beyond the lists is read.
+TEST(PartsOfALattice, BlocksWithoutBondsAreUndeformed) {
+  const State X = scenes::box<3>({9, 9, 9});
+  for (const std::size_t held : {std::size_t{243}, X.size()}) {
+    const auto bonded = [&](std::size_t i, std::size_t j) { return std::min(i, j) >= held; };
+    const Bonds bonds(hmps::vectors(X), {.spacing = l0, .unbonded = true}, bonded);
+    State x = X, f = X;
+    for (Vector& r : x) r *= 1.1;
+    std::vector<hmps::Matrix<double, 3>> F(X.size());
+    auto force = hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(1e4, 1e5)),
+                                      hmps::artificial(1e4), hmps::record(hmps::matrices(F)));
+    force(hmps::vectors(x), hmps::vectors(f));
+    for (std::size_t i = 0; i < held; ++i) {
+      EXPECT_TRUE(F[i].isIdentity(0)) << i;
+      EXPECT_TRUE(f[i].isZero(0)) << i;
+    }
+  }
+}
+
+TEST(PartsOfALattice, RefuseAxesAndDisplacementsThatAreNone) {
   const State X = scenes::box<3>({4, 4, 4});
   EXPECT_THROW(Bonds(hmps::vectors(X), {.spacing = l0, .axes = {0, 1, 1}}), hmps::InputError);
+  Bonds bonds(hmps::vectors(X), {.spacing = l0});
+  EXPECT_THROW(bonds.subtract_displacement(Vector(0, std::nan(""), 0)), hmps::InputError);
   EXPECT_NO_THROW(Bonds(hmps::vectors(X), {.spacing = l0, .axes = {2, 0, 1}}));
 }
 

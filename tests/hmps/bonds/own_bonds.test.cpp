@@ -142,8 +142,10 @@ TEST(OwnBonds, AsListsMustNameEachBondFromBothEnds) {
 
 TEST(OwnBonds, OfNoParticlesAreNone) {
   const std::vector<hmps::Vector<double, 3>> none;
-  const hmps::BondList<double, 3> bonds(hmps::vectors(none), Pairs{}, 1.0);
+  const hmps::BondList<float, 3> bonds(hmps::vectors(none), Pairs{}, 1.0);
   EXPECT_EQ(bonds.size(), 0u);
+  const std::vector<hmps::Vector<double, 3>> lonely(2, hmps::Vector<double, 3>::Zero());
+  EXPECT_THROW((hmps::BondList<float, 3>(hmps::vectors(lonely), Pairs{}, 1.0)), hmps::InputError);
 }
 
 }  // namespace

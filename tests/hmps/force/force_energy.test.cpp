@@ -45,6 +45,11 @@ struct OwnTerm {
     return sum;
   }
 };
+/// A term of two kinds: both of its energies count.
+struct Both : Springs, OwnTerm {
+  using OwnTerm::energy;
+  using Springs::energy;
+};
 
 struct Scene {
   scenes::Scene<2> scene = bent_box<2>(true);
@@ -69,6 +74,7 @@ TEST(ForceEnergy, IsWhatTheForceIsMinusTheGradientOf) {
   expect(hmps::internal_force(s.bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::mean_dilatation(share.mean)));
   expect(hmps::internal_force(s.bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::mean_dilatation(share.mean),
                               hmps::gravity(1000, Vec(3, -9.81)), Springs{1e9}, OwnTerm{1e8}));
+  expect(hmps::internal_force(s.bonds, hmps::mean_dilatation<2>(share.mean), Both{{1e9}, {1e8}}));
 }
 
 // Term by term it is what the diagnostics compute from the same deformation gradients; what keeps no energy has none.

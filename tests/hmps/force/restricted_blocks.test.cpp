@@ -37,7 +37,7 @@ TEST(RestrictedBlocks, GrowByTheNeighboursThatEachSweepReads) {
 
   std::set<std::size_t> moving{7};
   blocks.restrict_to(
-      bonds, [](std::size_t i) { return i == 7; }, true);
+      bonds, [](std::size_t i) { return i == 7; }, 1);
   const auto of = [&](const std::set<std::size_t>& particles) {
     std::set<std::size_t> found;
     for (const std::size_t i : particles) found.insert(bonds.slot(i) / Bonds::width);
@@ -53,6 +53,12 @@ TEST(RestrictedBlocks, GrowByTheNeighboursThatEachSweepReads) {
   grow();
   grow();
   EXPECT_EQ(visited(dilated), of(moving));
+  EXPECT_LT(visited(dilated).size(), bonds.block_count());
+  blocks.restrict_to(
+      bonds, [](std::size_t i) { return i == 7; }, 2);
+  grow();
+  grow();
+  EXPECT_EQ(visited(dilated), of(moving)) << "a second mean needs two rings more";
   EXPECT_LT(visited(dilated).size(), bonds.block_count());
   EXPECT_GT(blocks.bytes(), 0u);
 }
