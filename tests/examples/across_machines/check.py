@@ -101,6 +101,9 @@ def refused():
     before = (folder / "resumed").read_bytes()
     says(run(3, "resumed", "--time-step", "1e-5", "--resume"), "rank 0", "resume with the same settings")
     says(run(2, "nothing", "--resume"), "rank 0", "cannot read")
+    for ranks, plain in ((2, []), (1, ["--plain"])):
+        says(run(ranks, "resumed", "--steps", "100", "--resume", *plain), "is of step 250, which is beyond --steps 100")
+    assert (folder / "resumed").read_bytes() == before
     damaged = bytearray(before)
     damaged[1000] ^= 1
     (folder / "damaged").write_bytes(damaged)
