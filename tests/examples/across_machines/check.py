@@ -126,6 +126,7 @@ def refused():
     short, _ = state_of(3, "unstable", "--time-step", "1e-4", "--steps", "2")
     says(run(2, "unstable", "--time-step", "1e-4", "--resume"), "rank", "try a smaller time step")
     assert (folder / "unstable").read_bytes() == short
+    says(run(2, "fast", "--time-step", "1e-3"), "surface particle", "in a step, but contact", "try a smaller time step")
 
 
 whole = same_bits()
