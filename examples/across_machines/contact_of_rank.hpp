@@ -92,6 +92,16 @@ class ContactOfRank {
     return change[0] > margin || change[1] > tolerated_growth;
   }
 
+  /// Throws `StateError` where an own surface particle moves by more than `margin` in a step. A survey forgets where
+  /// contact has seen the particles before, and such a one may pass a thin wall in the step that follows, unseen.
+  void require_slow(double t, double dt, const std::vector<Vector>& v) const {
+    for (std::size_t k = 0; k < own_.size(); ++k)
+      if (const double way = v[own_[k]].norm() * dt; way > margin)
+        throw hmps::StateError(hmps::message("hmps: at t = ", t, " s, surface particle ", part_.particles[own_[k]],
+                                             " of the scene moves by ", way, " m in a step, but contact between ranks ",
+                                             "follows at most ", margin, " m; try a smaller time step"));
+  }
+
   /// To be called by all ranks at once.
   void survey(const std::vector<Vector>& x, const std::vector<Gradient>& F) {
     std::array<double, 1> stretch{1};

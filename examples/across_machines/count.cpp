@@ -20,13 +20,13 @@ namespace {
 using namespace across_machines;
 
 /// All counts of one size: for 1, 2, 4, ... parts, until a part would have less than 64 particles.
-std::vector<Count> counts_of(double particles, int most) {
+std::vector<Count> counts_of(double particles, int most, int contact_weight) {
   const Scene scene(particles);
   const std::vector<SurfaceParticle> surface = scene.surface();
   std::vector<hmps::Vector<double, 3>> place;
   for (const SurfaceParticle& s : surface) place.push_back(scene.reference(s.particle));
   const int edge = particles > 3e6 ? 4 : particles > 4e5 ? 2 : 1;
-  CubeGraph graph(scene, edge);
+  CubeGraph graph(scene, edge, contact_weight);
   std::vector<Count> counts;
   for (int parts = 1; parts <= most && scene.size() / static_cast<std::size_t>(parts) >= 64; parts *= 2) {
     counts.push_back(count(scene, graph, surface, place, parts));
@@ -71,12 +71,17 @@ int main(int argc, char** argv) {
   Measured measured;
   double largest = 20e6;
   int most = 1024, sizes = 7;
+  int contact_weight = static_cast<int>(CubeGraph::usual_contact_weight);
   std::string counts, out;
   CLI::App app("Counts the messages and the balance of across_machines, and models its time.", "across_machines_count");
   app.add_option("--largest", largest, "particles of the largest scene; each next has a quarter")
       ->capture_default_str();
   app.add_option("--sizes", sizes, "how many scenes")->capture_default_str()->check(CLI::Range(1, 8));
   app.add_option("--parts", most, "up to how many parts")->capture_default_str()->check(CLI::Range(1, 1 << 20));
+  CLI::Option* weight = app.add_option("--contact-weight", contact_weight,
+                                       "of cubes in touch over that of bonded ones, for METIS; 0 does not join them")
+                            ->capture_default_str()
+                            ->check(CLI::Range(0, 1000));
   app.add_option("--force-rate", measured.force, "million particles/s of one core: all but contact and messages")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -90,7 +95,8 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--counts", counts, "reads the counts from this file or, if it is not there, writes them to it")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->excludes(weight);  // which the file does not tell
   app.add_option("--out", out, "the page; without it, it goes to standard output")->type_name("FILE");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -98,10 +104,10 @@ int main(int argc, char** argv) {
     if (!counts.empty() && std::filesystem::exists(counts)) {
       all = read_counts(counts);
     } else {
-      for (int s = 0; s < sizes; ++s) all.push_back(counts_of(largest / std::pow(4, s), most));
+      for (int s = 0; s < sizes; ++s) all.push_back(counts_of(largest / std::pow(4, s), most, contact_weight));
       if (!counts.empty()) write_counts(counts, all);
     }
-    const std::string page = page_of(all, measured);
+    const std::string page = page_of(all, measured, contact_weight);
     if (out.empty())
       std::cout << page;
     else

@@ -72,6 +72,8 @@ void run(const Options& options, const Ranks& ranks) {
   const RunSettings settings{scene.size(), options.dt};
   State state;
   const std::uint64_t first = start(options, scene, ranks, state);
+  hmps::require(first <= options.steps, "hmps: ", options.out, " is of step ", first, ", which is beyond --steps ",
+                options.steps, "; give a larger --steps, or start anew without --resume");
   if (options.plain) {
     hmps::require(ranks.size == 1, "hmps: --plain is for one rank, but there are ", ranks.size);
     run_plainly(scene, options.dt, first, options.steps, state);

@@ -4,24 +4,32 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "count.hpp"
 
 namespace across_machines {
 
-/// What was measured on one machine, an AMD EPYC with AVX-512.
+/// What was measured on one machine: unless given, on an AMD EPYC with AVX-512.
 struct Measured {
   double force = 20, contact = 7;       ///< million particles/s of one core
   double latency = 9, bandwidth = 3.8;  ///< us and GB/s between two ranks over TCP
-  std::string source =
-      "Of these, the force is\nthat of docs/measured/benchmarks.md, mixed, at 300 thousand to a million particles on a quiet "
-      "machine; "
-      "contact follows from\nits share of the time of 20,000 particles in touch here, on a busy one (0.33 and 0.49 of "
-      "the "
-      "rate of the force in two\nruns; 0.35 is taken); messages are those of `--measure-network` there.";
+
+  bool operator==(const Measured&) const = default;
 };
+
+/// Where the rates come from.
+[[nodiscard]] inline const char* source_of(const Measured& measured) {
+  if (measured != Measured{}) return "These are the rates that the command line gave.";
+  return R"(Of these, the force is
+that of docs/measured/benchmarks.md, mixed, at 300 thousand to a million particles on a quiet machine; contact follows from
+its share of the time of 20,000 particles in touch here, on a busy one (0.33 and 0.49 of the rate of the force in two
+runs; 0.35 is taken); messages are those of `--measure-network` there.)";
+}
 
 __attribute__((format(printf, 1, 2))) [[nodiscard]] inline std::string format(const char* pattern, ...) {
   char text[4000];
@@ -117,7 +125,7 @@ template <class Cell>
   return bytes >= 999.5e3 ? format("%.3g M", bytes * 1e-6) : format("%.3g k", bytes * 1e-3);
 }
 
-[[nodiscard]] inline std::string counted(const std::vector<std::vector<Count>>& all) {
+[[nodiscard]] inline std::string counted(const std::vector<std::vector<Count>>& all, int contact_weight) {
   std::string text = R"(
 ## Counted
 
@@ -125,9 +133,8 @@ Parts of the scene at its start, the block lying on the plate. Columns are numbe
 scaling; each row has four times the particles of the one below it, so that two columns to the right and one row up is
 weak scaling. Up to 400 thousand particles METIS divides the graph of the particles, beyond that the graph of cubes with 2,
 and beyond three million with 4 particles along each side. Cubes that touch across the contact are joined in the graph,
-three times as strongly as by bonds. Without that METIS cuts between the two bodies where it can: 1.25 million particles
-in 4, 8 and 16 parts then received 6.39, 9.5 and 12.9 MB in all, but 77 thousand in 2, 4, 8 and 16 parts only 0.52, 1.13,
-2.02 and 3.17 MB, less than below.
+)" + std::to_string(contact_weight) +
+                     R"( times as strongly as by bonds (`--contact-weight`, 0: not at all).
 
 Bytes that the part with most of them receives in each step for its two layers (48 a particle of the first, 24 of the
 second):
@@ -149,9 +156,11 @@ second):
   return text;
 }
 
-/// Up to how many particles two machines take more than two thirds of the time of one, between the sizes counted.
-[[nodiscard]] inline double stay_below(const std::vector<std::vector<Count>>& all, const Rates& rates,
-                                       const Network& network, std::size_t doublings, double gain) {
+/// How many particles a scene needs so that 2^`doublings` machines are `gain` times as fast as one, between the sizes
+/// counted: 0 where fewer than the least of them, infinity where more than the most, nothing where no size was counted
+/// in so many parts.
+[[nodiscard]] inline std::optional<double> stay_below(const std::vector<std::vector<Count>>& all, const Rates& rates,
+                                                      const Network& network, std::size_t doublings, double gain) {
   double above = std::numeric_limits<double>::infinity(), gain_above = 0;
   for (const auto& row : all) {  // the largest first
     if (row.size() <= doublings) break;
@@ -164,7 +173,12 @@ second):
     above = n;
     gain_above = own;
   }
+  if (!std::isfinite(above)) return std::nullopt;
   return 0;
+}
+[[nodiscard]] inline std::string needed(const std::optional<double>& particles) {
+  if (!particles) return "not counted in so many parts";
+  return *particles == 0 ? "fewer than counted" : std::isinf(*particles) ? "more than counted" : amount(*particles);
 }
 
 [[nodiscard]] inline std::string modelled(const std::vector<std::vector<Count>>& all, const Measured& m) {
@@ -180,10 +194,9 @@ second):
       "    (own + first layer / 2) / force rate / cores + gathered / contact rate / cores\n"
       "      + (2 + 3 log2 parts) latency + bytes / bandwidth\n\n"
       "Cores are taken to share the work of a machine evenly, which the example, with one thread a rank, leaves to\n"
-      "several ranks on each machine. Surveys, 3 %% of a step where they were measured, are left out. Networks other "
-      "than\n"
+      "several ranks on each machine. Surveys are left out; the example prints their time. Networks other than\n"
       "that measured are assumed. This is a model: nothing was run on more than one machine.\n",
-      m.force, m.contact, m.latency, m.bandwidth, m.source.c_str());
+      m.force, m.contact, m.latency, m.bandwidth, source_of(m));
   for (const double cores : {2., 32.}) {
     const Rates rates{m.force * 1e6, m.contact * 1e6, cores};
     const Network& network = cores > 2 ? networks[2] : networks[0];
@@ -201,18 +214,17 @@ second):
   for (const Network& network : networks) {
     text += format("| %s |", network.name);
     for (const double cores : {2., 32.})
-      for (const auto& [doublings, gain] : {std::pair<std::size_t, double>{1, 1.5}, {4, 8.}}) {
-        const double n = stay_below(all, {m.force * 1e6, m.contact * 1e6, cores}, network, doublings, gain);
-        text += n == 0 ? " fewer than counted |" : std::isinf(n) ? " more than counted |" : " " + amount(n) + " |";
-      }
+      for (const auto& [doublings, gain] : {std::pair<std::size_t, double>{1, 1.5}, {4, 8.}})
+        text += " " + needed(stay_below(all, {m.force * 1e6, m.contact * 1e6, cores}, network, doublings, gain)) + " |";
     text += "\n";
   }
   text += "\nBelow the numbers for two machines, stay on one.\n";
   return text;
 }
 
-[[nodiscard]] inline std::string page_of(const std::vector<std::vector<Count>>& all, const Measured& measured) {
-  return introduction + counted(all) + modelled(all, measured);
+[[nodiscard]] inline std::string page_of(const std::vector<std::vector<Count>>& all, const Measured& measured,
+                                         int contact_weight) {
+  return introduction + counted(all, contact_weight) + modelled(all, measured);
 }
 
 }  // namespace across_machines

@@ -73,9 +73,10 @@ class CubeGraph {
  public:
   /// Of a pair of particles in touch over that of a bond: what a rank gathers for one on both sides of a cut, in bytes,
   /// is about twice that of two layers of halo, and contact reaches further along the surface.
-  static constexpr idx_t contact_weight = 3;
+  static constexpr idx_t usual_contact_weight = 3;
 
-  CubeGraph(const Scene& scene, int edge) : cube_of_(scene.size()) {
+  /// Does not join the cubes of two bodies where `contact_weight` is 0.
+  CubeGraph(const Scene& scene, int edge, idx_t contact_weight = usual_contact_weight) : cube_of_(scene.size()) {
     std::array<int, 3> most{};
     for (std::size_t i = 0; i < scene.size(); ++i)
       for (std::size_t d = 0; d < 3; ++d) most[d] = std::max(most[d], scene.cell(i)[d] / edge + 1);
@@ -102,7 +103,7 @@ class CubeGraph {
     }
     begin_.push_back(0);
     for (const Cube& cube : cubes) {
-      for (int n = 0; n < 54; ++n) {
+      for (int n = 0; n < (contact_weight > 0 ? 54 : 27); ++n) {
         const int dx = n % 3 - 1, dy = n / 3 % 3 - 1, dz = n / 9 % 3 - 1,
                   other_body = n < 27 ? cube.body : 1 - cube.body;
         // Of the other body, one layer of cubes is in touch, in the same row of cubes or the next.

@@ -122,6 +122,7 @@ class Simulation {
     for (const Region& region : regions_) region.prescribe(t, dt_, x, v);
     std::array<double, 2> change = contact_.change(state_.x, F_);
     require_finite(t);
+    contact_.require_slow(t, dt_, state_.v);
     lap(times_.force);
     largest(ranks_, change);
     lap(times_.messages);

@@ -9,20 +9,22 @@ import os
 import pathlib
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 
 program = sys.argv[1]
-folder = pathlib.Path(tempfile.mkdtemp())
+temporary = tempfile.TemporaryDirectory()  # removed at the end of the program
+folder = pathlib.Path(temporary.name)
 PARTICLES, STEPS = 2500, 250
 
 
 def command(ranks, out, *more):
     options = {"--particles": PARTICLES, "--steps": STEPS, "--every": 50, "--out": folder / out}
     more = list(more)
-    while len(more) > 1 and not more[1].startswith("--"):  # in place of those above
+    while len(more) > 1 and not str(more[1]).startswith("--"):  # in place of those above
         option = more.pop(0)
         options[option] = more.pop(0)
     settings = [str(word) for option in options.items() for word in option]
@@ -65,7 +67,12 @@ def same_bits():
     return plain
 
 
-def killed_and_resumed(whole):
+def step_of(state):
+    """The step in the header of a checkpoint, behind its name, the order of bytes, and two settings."""
+    return struct.unpack_from("=Q", state, 48)[0]
+
+
+def killed_and_resumed():
     """A rank dies: the run ends with an error, and what was written lets another number of ranks go on."""
     out = folder / "killed"
     run_of_three = subprocess.Popen(command(3, "killed", "--steps", "1000000"), stdout=subprocess.PIPE,
@@ -81,7 +88,12 @@ def killed_and_resumed(whole):
     _, errors = run_of_three.communicate(timeout=60)
     assert run_of_three.returncode != 0
     assert "signal 9 (Killed)" in errors, errors
-    assert out.read_bytes()[:23] == b"hmps across_machines 1\n"
+    step = step_of(out.read_bytes())
+    assert step > 0 and step % 50 == 0, step
+    on_two, _ = state_of(2, "killed", "--steps", step + 10, "--resume")
+    assert step_of(on_two) == step + 10
+    plain, _ = state_of(1, "not_killed", "--steps", step + 10, "--plain")
+    assert on_two == plain, f"a run that was killed after step {step} and resumed has other bits"
 
 
 def resumed(whole):
@@ -101,18 +113,24 @@ def refused():
     before = (folder / "resumed").read_bytes()
     says(run(3, "resumed", "--time-step", "1e-5", "--resume"), "rank 0", "resume with the same settings")
     says(run(2, "nothing", "--resume"), "rank 0", "cannot read")
+    for ranks, plain in ((2, []), (1, ["--plain"])):
+        says(run(ranks, "resumed", "--steps", "100", "--resume", *plain), "is of step 250, which is beyond --steps 100")
+    assert (folder / "resumed").read_bytes() == before
     damaged = bytearray(before)
     damaged[1000] ^= 1
     (folder / "damaged").write_bytes(damaged)
     says(run(2, "damaged", "--resume"), "damaged: its checksum")
     says(run(3, "resumed", "--resume", "--plain"), "--plain is for one rank")
-    # A run that becomes unstable after it has resumed; what was written stays.
-    says(run(3, "unstable", "--time-step", "1e-3"), "rank", "try a smaller time step")
     assert (folder / "resumed").read_bytes() == before
+    # A run that becomes unstable after it has resumed; what was written stays.
+    short, _ = state_of(3, "unstable", "--time-step", "1e-4", "--steps", "2")
+    says(run(2, "unstable", "--time-step", "1e-4", "--resume"), "rank", "try a smaller time step")
+    assert (folder / "unstable").read_bytes() == short
+    says(run(2, "fast", "--time-step", "1e-3"), "surface particle", "in a step, but contact", "try a smaller time step")
 
 
 whole = same_bits()
 resumed(whole)
-killed_and_resumed(whole)
+killed_and_resumed()
 refused()
 print("the same bits on 1, 2, 3, 4 and 7 ranks, resumed on other numbers, and clear errors")

@@ -9,6 +9,7 @@
 
 #include "../../../examples/across_machines/count.hpp"
 #include "../../../examples/across_machines/meeting.hpp"
+#include "../../../examples/across_machines/page.hpp"
 #include "../../../examples/across_machines/partition.hpp"
 
 namespace {
@@ -55,6 +56,12 @@ TEST(Parts, AreAboutEven) {
   for (const int edge : {1, 2})
     for (const auto& own : own_particles(CubeGraph(scene, edge).divide(16), 16))
       EXPECT_LT(static_cast<double>(own.size()), 1.1 * static_cast<double>(scene.size()) / 16);
+}
+
+TEST(Parts, FollowTheWeightOfContact) {
+  const Scene scene(2500);
+  EXPECT_EQ(CubeGraph(scene, 1).divide(4), CubeGraph(scene, 1, CubeGraph::usual_contact_weight).divide(4));
+  EXPECT_NE(CubeGraph(scene, 1, 0).divide(4), CubeGraph(scene, 1).divide(4));
 }
 
 TEST(Parts, WithoutParticlesAreAnError) {
@@ -129,6 +136,29 @@ TEST(Counting, AddsUpWhatPartsBorrow) {
   EXPECT_GE(two.all_bytes, bytes);
   EXPECT_EQ(std::fmod(two.all_bytes - bytes, 84), 0) << "the rest is contact";
   EXPECT_LE(two.peers, 1u);
+}
+
+// Two machines are twice as fast as one with 4000 particles, and 4/3 times with 1000.
+TEST(Page, SaysHowManyParticlesAreNeeded) {
+  const Network network{"", 0, 1};
+  const Rates rates{1, 1, 1};
+  const auto row = [](std::size_t particles, std::size_t largest) {
+    return std::vector<Count>{{particles, 1, particles}, {particles, 2, largest}};
+  };
+  const std::vector<std::vector<Count>> all{row(4000, 2000), row(1000, 750)};
+  const auto text = [&](std::size_t doublings, double gain) {
+    return needed(stay_below(all, rates, network, doublings, gain));
+  };
+  EXPECT_EQ(text(1, 5. / 3), "2 k") << "in the middle of their logarithms";
+  EXPECT_EQ(text(1, 1.3), "fewer than counted");
+  EXPECT_EQ(text(1, 2.1), "more than counted");
+  EXPECT_EQ(text(2, 1.3), "not counted in so many parts");
+}
+TEST(Page, NamesNoSourceOfOtherRates) {
+  const std::vector<std::vector<Count>> all{{{1000, 1, 1000}}};
+  const char* source = "docs/measured/benchmarks.md";
+  EXPECT_NE(page_of(all, {}, 3).find(source), std::string::npos);
+  EXPECT_EQ(page_of(all, {.force = 21}, 3).find(source), std::string::npos);
 }
 
 }  // namespace
