@@ -13,6 +13,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -35,7 +36,7 @@ template <class S>
   require(!mesh.vertices.empty(), "hmps: ", mesh.source, " has no vertices; check that the file holds a surface");
   Box<S, 3> box{mesh.vertices.front(), mesh.vertices.front()};
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-    require(mesh.vertices[k].allFinite(), "hmps: vertex ", k, " of ", mesh.source, " is (",
+    require(detail::all_finite(mesh.vertices[k]), "hmps: vertex ", k, " of ", mesh.source, " is (",
             mesh.vertices[k].transpose(), "); every coordinate must be a finite number");
     box.lower = box.lower.cwiseMin(mesh.vertices[k]);
     box.upper = box.upper.cwiseMax(mesh.vertices[k]);
