@@ -44,6 +44,13 @@ template <class S>
   return box;
 }
 
+/// The area vector of a triangle with corners a, b, c: its area in m2 along its normal, which points to where it is
+/// seen counter-clockwise.
+[[nodiscard]] inline Vector<double, 3> area_vector(const Vector<double, 3>& a, const Vector<double, 3>& b,
+                                                   const Vector<double, 3>& c) {
+  return (b - a).cross(c - a) / 2;
+}
+
 /// The enclosed volume (m3) of a closed surface; positive if triangles are counter-clockwise seen from outside.
 template <class S>
 [[nodiscard]] double volume(const SurfaceMesh<S>& mesh) {

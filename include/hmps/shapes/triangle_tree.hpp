@@ -205,7 +205,7 @@ class TriangleTree {
         node.lower = node.lower.cwiseMin(corner);
         node.upper = node.upper.cwiseMax(corner);
       }
-      const V area = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+      const V area = area_vector(t[0], t[1], t[2]);
       node.area += area;
       weighted += area.norm() * centre_of(t);
       total += area.norm();
@@ -218,7 +218,7 @@ class TriangleTree {
     node.squared_radius = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const auto& t = triangles_[order[k]];
-      const V area = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+      const V area = area_vector(t[0], t[1], t[2]);
       const V sum = 3 * (centre_of(t) - node.centre);
       node.moment += area * sum.transpose() / 3;
       // The mean of d d^T over a triangle, by its corners.
