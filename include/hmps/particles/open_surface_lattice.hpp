@@ -81,7 +81,7 @@ template <class S, Executor E = Serial>
   const TriangleTree tree(mesh, accuracy);
   const auto edges = detail::edge_uses(mesh.triangles);
   const detail::EdgeFaults<S> faults(mesh, edges);
-  if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
+  detail::require_single(mesh, faults);
   detail::require_oriented(mesh, faults);
   OpenLattice<S> result;
   result.open_edges = faults.open.count;

@@ -139,20 +139,28 @@ struct EdgeFaults {
   Kind crowded;  ///< edges of three, five, ... triangles
   Kind turned;   ///< edges run through more often in one direction than in the other
   Kind shared;   ///< edges of four, six, ... triangles, as many in either direction: no fault in itself
+  Kind folded;   ///< edges of one triangle in both orientations
 
   explicit EdgeFaults(const SurfaceMesh<S>& mesh) : EdgeFaults(mesh, edge_uses(mesh.triangles)) {}
   EdgeFaults(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges) {
     for (const EdgeUse& edge : edges) {
-      if (edge.balanced() && edge.uses() == 2) continue;
-      Kind& kind = edge.balanced() ? shared : edge.uses() == 1 ? open : edge.uses() % 2 != 0 ? crowded : turned;
+      if (edge.balanced() && edge.uses() == 2 && !edge.folded()) continue;
+      Kind& kind = edge.folded()          ? folded
+                   : edge.balanced()      ? shared
+                   : edge.uses() == 1     ? open
+                   : edge.uses() % 2 != 0 ? crowded
+                                          : turned;
       if (kind.count++ == 0) kind.at = (mesh.vertices[edge.low] + mesh.vertices[edge.high]) / S(2);
     }
   }
 };
 
-/// Throws `InputError` for repeated triangles, in either orientation. For welded surfaces.
+/// Throws `InputError` for repeated triangles, in the same orientation or, throughout a part, in both. For welded
+/// surfaces, with their faults.
 template <class S>
-void require_single(const SurfaceMesh<S>& mesh) {
+void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
+  // Repeated triangles share their edges with others, or, in two orientations, with each other alone.
+  if (faults.crowded.count + faults.turned.count + faults.shared.count + faults.folded.count == 0) return;
   const auto middle = [&](std::size_t k) {
     const auto& t = mesh.triangles[k];
     return Vector<S, 3>((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / S(3));
@@ -189,8 +197,7 @@ template <class S>
 void require_closed(const SurfaceMesh<S>& mesh) {
   detail::require_triangles(mesh);
   const detail::EdgeFaults<S> faults(mesh);
-  // Repeated triangles share their edges with others.
-  if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
+  detail::require_single(mesh, faults);
   const std::string crowded =
       faults.crowded.count == 0
           ? ""
