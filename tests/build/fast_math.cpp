@@ -3,6 +3,7 @@
 // infinities all the same. Returns how many did not.
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "hmps/hmps.hpp"
@@ -84,6 +85,12 @@ void numbers(double bad, const std::vector<V>& X) {
   refuses("lattice spacing", bad, [&] {
     (void)hmps::fill_lattice(hmps::Ball<double, 3>{V::Zero(), 1}, hmps::Box<double, 3>{V(0, 0, 0), V(1, 1, 1)}, bad);
   });
+  refuses("vertex", bad, [&] {
+    hmps::SurfaceMesh<double> surface{{V(0, 0, 0), V(1, bad, 0), V(0, 1, 0), V(0, 0, 1)},
+                                      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+    hmps::require_closed(surface);
+  });
+  refuses("cell of a table", bad, [&] { (void)hmps::parse_csv("t\n" + std::to_string(bad)); });
   const auto no_force = [](const auto&, const auto&, const auto&) {};
   const std::vector<V> rest(X.size(), V::Zero());
   const auto step = [&](const hmps::StableStepSettings& s) {
@@ -115,6 +122,9 @@ int main() {
   const double nan = std::strtod("nan", nullptr);
   refuses("shape", nan, [&] {
     (void)hmps::fill_lattice([&](const V&) { return nan; }, hmps::Box<double, 3>{V(0, 0, 0), V(1, 1, 1)}, 0.5);
+  });
+  refuses("shape to fit particles in", nan, [&] {
+    (void)hmps::fit_particles([&](const V&) { return nan; }, hmps::Box<double, 3>{V(0, 0, 0), V(1, 1, 1)}, 0.5);
   });
   refuses("time of a track", nan, [&] { (void)hmps::Track{{0.0, 1.0}}.value(nan); });
   return silent == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -13,6 +13,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/text_file.hpp"
 #include "hmps/motion/keyframes.hpp"
 
@@ -94,7 +95,7 @@ void for_each_cell(std::string_view line, Use&& use) {
     detail::for_each_cell(line, [&](std::string_view cell) {
       if (cell_number < table.names.size()) {
         double number{};
-        if (!detail::parse_number(cell, number) || !std::isfinite(number))
+        if (!detail::parse_number(cell, number) || !detail::is_finite(number))
           fail("'", detail::printable(cell), "' in column '", detail::printable(table.names[cell_number]),
                "' is not a finite number");
         table.values.push_back(number);

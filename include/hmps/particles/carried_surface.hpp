@@ -61,7 +61,11 @@ class CarriedSurface {
     require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a carried surface is ", spacing,
             " m; give the particles' positive distance in the reference configuration");
     require(reference.size() > 0, "hmps: a carried surface was given no particles");
-    require_finite(points, "the place");
+    require_view(points, "points");
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (int c = 0; c < D; ++c)
+        require(detail::is_finite(points(p, c)), "hmps: component ", c, " of the place of point ", p,
+                " of a carried surface is ", points(p, c), "; every component must be a finite number");
     const FixedRadiusSearch<T, D> search(reference);
     std::vector<std::vector<Share>> shares(points.size());
     execute(points.size(), [&](std::size_t p) {
@@ -81,11 +85,12 @@ class CarriedSurface {
   }
 
   /// Writes the places in m of the points that go with the positions `x` of the particles. Throws `InputError` for
-  /// views of other sizes.
+  /// views of other sizes or of the same memory.
   template <class X, class P, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<P, D>& places, const E& execute = {}) const {
     require_size(x, particles_, "positions");
     require_size(places, size(), "places");
+    require_apart(places, "places", x, "positions");
     execute(size(), [&](std::size_t p) {
       Vector<double, D> place = Vector<double, D>::Zero();
       for (const Share& share : shares(p))
@@ -96,14 +101,15 @@ class CarriedSurface {
 
   /// Writes to `values` what `quantity` of the particles is at the points, by the same coefficients: exact where it is
   /// linear in space. Outside of the particles it is extrapolated and may pass the values of all of them, below zero
-  /// too: for a smooth picture of a stress see `mean`. Throws `InputError` for views of other sizes.
+  /// too: for a smooth picture of a stress see `mean`. Throws `InputError` for views of other sizes or of the same
+  /// memory.
   template <class Q, class P, Executor E = Serial>
   void interpolate(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
     combine(&Share::weight, quantity, values, execute);
   }
   /// Writes to `values` the mean of `quantity` over the particles around each point, weighted by w: never beyond the
   /// values of the particles, and on a surface rather what there is about a spacing below it. Throws `InputError` for
-  /// views of other sizes.
+  /// views of other sizes or of the same memory.
   template <class Q, class P, Executor E = Serial>
   void mean(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
     combine(&Share::mean, quantity, values, execute);
@@ -115,6 +121,7 @@ class CarriedSurface {
                const E& execute) const {
     require_size(quantity, particles_, "a quantity");
     require_size(values, size(), "values");
+    require_apart(values, "values", quantity, "a quantity");
     execute(size(), [&](std::size_t p) {
       double sum = 0;
       for (const Share& share : shares(p)) sum += share.*factor * static_cast<double>(quantity[share.particle]);

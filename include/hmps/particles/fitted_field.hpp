@@ -13,6 +13,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/search/grid.hpp"
@@ -76,7 +77,7 @@ class FittedField {
   /// Signed distance in m, negative inside. Throws `InputError` where the shape is NaN.
   [[nodiscard]] double operator()(const Point& x) const {
     const double d = static_cast<double>(static_cast<S>(shape_(Vector<S, D>(x.template cast<S>()))));
-    if (d != d)
+    if (is_nan(d))
       throw InputError(
           message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
     return std::max(d, box_(x));

@@ -47,18 +47,30 @@ template <class S, int D>
   return 8 * static_cast<double>(std::numeric_limits<S>::epsilon()) * static_cast<double>(largest);
 }
 
+/// How far in m a site may lie from the surface and yet be taken to lie on it.
+template <class S, int D>
+[[nodiscard]] double hair(const Box<S, D>& box, double spacing, const Vector<S, D>& origin) {
+  return std::max(1e-9 * spacing, coordinate_rounding<S, D>(box, origin));
+}
+
+/// How far in m sites on the surface are moved to find on which side they are counted, by a hair in m: larger than the
+/// rounding, and different in each direction, so that sites on faces such as x = y fall on one side.
+template <class S, int D>
+[[nodiscard]] Vector<S, D> aside(S reach) {
+  constexpr S share[3] = {S(8), S(6.5), S(5.25)};
+  Vector<S, D> shift;
+  for (int c = 0; c < D; ++c) shift[c] = share[c] * reach;
+  return shift;
+}
+
 /// Decides whether lattice sites lie inside a shape, with a rule for sites on its surface.
 template <class F, class S, int D>
 class InsideShape {
  public:
   InsideShape(const F& shape, const Box<S, D>& box, S spacing, const Vector<S, D>& origin)
       : shape_(shape),
-        on_surface_(
-            static_cast<S>(std::max(1e-9 * static_cast<double>(spacing), coordinate_rounding<S, D>(box, origin)))) {
-    // Larger than the rounding, and different in each direction, so that sites on faces such as x = y fall on one side.
-    constexpr S share[3] = {S(8), S(6.5), S(5.25)};
-    for (int c = 0; c < D; ++c) aside_[c] = share[c] * on_surface_;
-  }
+        on_surface_(static_cast<S>(hair<S, D>(box, static_cast<double>(spacing), origin))),
+        aside_(aside<S, D>(on_surface_)) {}
   [[nodiscard]] bool operator()(const Vector<S, D>& x) const {
     const S distance = value(x);
     if (std::abs(distance) > on_surface_) return distance < S(0);

@@ -81,7 +81,7 @@ template <class S, Executor E = Serial>
   const TriangleTree tree(mesh, accuracy);
   const auto edges = detail::edge_uses(mesh.triangles);
   const detail::EdgeFaults<S> faults(mesh, edges);
-  if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
+  detail::require_single(mesh, faults);
   detail::require_oriented(mesh, faults);
   OpenLattice<S> result;
   result.open_edges = faults.open.count;
@@ -91,9 +91,8 @@ template <class S, Executor E = Serial>
   const Box<S, 3> box = bounds(mesh);
   detail::require_plausible(mesh, box, static_cast<double>(spacing));
   const auto sites = detail::lattice_sites<S, 3>(box, spacing, origin);
-  // Sites on the lower sides of the surface are inside, as in `fill_lattice`; the shift differs in each direction.
-  const double hair = std::max(1e-9 * static_cast<double>(spacing), detail::coordinate_rounding<S, 3>(box, origin));
-  const Vector<double, 3> aside = hair * Vector<double, 3>(8, 6.5, 5.25);
+  // Sites on the lower sides of the surface are inside, as in `fill_lattice`.
+  const auto aside = detail::aside<double, 3>(detail::hair<S, 3>(box, static_cast<double>(spacing), origin));
   std::vector<std::vector<Vector<S, 3>>> slabs(static_cast<std::size_t>(sites.count[0]));
   std::vector<std::size_t> doubtful(slabs.size(), 0), sure(slabs.size(), 0);
   execute(slabs.size(), [&](std::size_t slab) {

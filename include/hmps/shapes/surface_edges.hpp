@@ -22,9 +22,12 @@ using Triangles = std::vector<std::array<Index, 3>>;
 struct EdgeUse {
   Index low, high;  ///< its vertices
   int forward, backward;
+  Index across;  ///< the third corners of its triangles, combined by exclusive or: 0 for two that are the same corner
 
   [[nodiscard]] int uses() const { return forward + backward; }
   [[nodiscard]] bool balanced() const { return forward == backward; }
+  /// Whether its triangles are one in both orientations.
+  [[nodiscard]] bool folded() const { return forward == 1 && backward == 1 && across == 0; }
 };
 
 /// The edges of `triangles`, each once, ordered by their vertices.
@@ -33,8 +36,8 @@ struct EdgeUse {
   edges.reserve(3 * triangles.size());
   for (const auto& t : triangles)
     for (std::size_t c = 0; c < 3; ++c) {
-      const Index a = t[c], b = t[(c + 1) % 3];
-      edges.push_back(a < b ? EdgeUse{a, b, 1, 0} : EdgeUse{b, a, 0, 1});
+      const Index a = t[c], b = t[(c + 1) % 3], across = t[(c + 2) % 3];
+      edges.push_back(a < b ? EdgeUse{a, b, 1, 0, across} : EdgeUse{b, a, 0, 1, across});
     }
   const auto key = [](const EdgeUse& e) { return std::pair(e.low, e.high); };
   std::sort(edges.begin(), edges.end(), [&](const EdgeUse& a, const EdgeUse& b) { return key(a) < key(b); });
@@ -43,6 +46,7 @@ struct EdgeUse {
     if (kept > 0 && key(edges[kept - 1]) == key(edge)) {
       edges[kept - 1].forward += edge.forward;
       edges[kept - 1].backward += edge.backward;
+      edges[kept - 1].across ^= edge.across;
     } else {
       edges[kept++] = edge;
     }

@@ -13,6 +13,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -35,12 +36,19 @@ template <class S>
   require(!mesh.vertices.empty(), "hmps: ", mesh.source, " has no vertices; check that the file holds a surface");
   Box<S, 3> box{mesh.vertices.front(), mesh.vertices.front()};
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-    require(mesh.vertices[k].allFinite(), "hmps: vertex ", k, " of ", mesh.source, " is (",
+    require(detail::all_finite(mesh.vertices[k]), "hmps: vertex ", k, " of ", mesh.source, " is (",
             mesh.vertices[k].transpose(), "); every coordinate must be a finite number");
     box.lower = box.lower.cwiseMin(mesh.vertices[k]);
     box.upper = box.upper.cwiseMax(mesh.vertices[k]);
   }
   return box;
+}
+
+/// The area vector of a triangle with corners a, b, c: its area in m2 along its normal, which points to where it is
+/// seen counter-clockwise.
+[[nodiscard]] inline Vector<double, 3> area_vector(const Vector<double, 3>& a, const Vector<double, 3>& b,
+                                                   const Vector<double, 3>& c) {
+  return (b - a).cross(c - a) / 2;
 }
 
 /// The enclosed volume (m3) of a closed surface; positive if triangles are counter-clockwise seen from outside.
@@ -131,20 +139,28 @@ struct EdgeFaults {
   Kind crowded;  ///< edges of three, five, ... triangles
   Kind turned;   ///< edges run through more often in one direction than in the other
   Kind shared;   ///< edges of four, six, ... triangles, as many in either direction: no fault in itself
+  Kind folded;   ///< edges of one triangle in both orientations
 
   explicit EdgeFaults(const SurfaceMesh<S>& mesh) : EdgeFaults(mesh, edge_uses(mesh.triangles)) {}
   EdgeFaults(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges) {
     for (const EdgeUse& edge : edges) {
-      if (edge.balanced() && edge.uses() == 2) continue;
-      Kind& kind = edge.balanced() ? shared : edge.uses() == 1 ? open : edge.uses() % 2 != 0 ? crowded : turned;
+      if (edge.balanced() && edge.uses() == 2 && !edge.folded()) continue;
+      Kind& kind = edge.folded()          ? folded
+                   : edge.balanced()      ? shared
+                   : edge.uses() == 1     ? open
+                   : edge.uses() % 2 != 0 ? crowded
+                                          : turned;
       if (kind.count++ == 0) kind.at = (mesh.vertices[edge.low] + mesh.vertices[edge.high]) / S(2);
     }
   }
 };
 
-/// Throws `InputError` for repeated triangles, in either orientation. For welded surfaces.
+/// Throws `InputError` for repeated triangles, in the same orientation or, throughout a part, in both. For welded
+/// surfaces, with their faults.
 template <class S>
-void require_single(const SurfaceMesh<S>& mesh) {
+void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
+  // Repeated triangles share their edges with others, or, in two orientations, with each other alone.
+  if (faults.crowded.count + faults.turned.count + faults.shared.count + faults.folded.count == 0) return;
   const auto middle = [&](std::size_t k) {
     const auto& t = mesh.triangles[k];
     return Vector<S, 3>((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / S(3));
@@ -181,8 +197,7 @@ template <class S>
 void require_closed(const SurfaceMesh<S>& mesh) {
   detail::require_triangles(mesh);
   const detail::EdgeFaults<S> faults(mesh);
-  // Repeated triangles share their edges with others.
-  if (faults.crowded.count + faults.turned.count + faults.shared.count > 0) detail::require_single(mesh);
+  detail::require_single(mesh, faults);
   const std::string crowded =
       faults.crowded.count == 0
           ? ""

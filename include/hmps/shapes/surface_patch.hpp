@@ -18,13 +18,6 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The area vector of a triangle with corners a, b, c: its area in m2 along its normal, which points to where it is
-/// seen counter-clockwise.
-[[nodiscard]] inline Vector<double, 3> area_vector(const Vector<double, 3>& a, const Vector<double, 3>& b,
-                                                   const Vector<double, 3>& c) {
-  return (b - a).cross(c - a) / 2;
-}
-
 /// The area of a surface, or of a patch of one, in m2.
 template <class S>
 [[nodiscard]] double area(const SurfaceMesh<S>& mesh) {

@@ -16,13 +16,27 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5).
+/// The point of the edges of a triangle that is nearest to `x`.
+[[nodiscard]] inline Vector<double, 3> nearest_on_edges(const std::array<Vector<double, 3>, 3>& corners,
+                                                        const Vector<double, 3>& x) {
+  Vector<double, 3> nearest = corners[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector<double, 3>&from = corners[k], &to = corners[(k + 1) % 3];
+    const Vector<double, 3> at = from + nearest_on_segment<double, 3>(from, to, x) * (to - from);
+    if ((at - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = at;
+  }
+  return nearest;
+}
+
+/// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5). Corners may lie in one place
+/// or in one line.
 [[nodiscard]] inline Vector<double, 3> nearest_on_triangle(const std::array<Vector<double, 3>, 3>& corners,
                                                            const Vector<double, 3>& x) {
   using V = Vector<double, 3>;
@@ -33,11 +47,19 @@ namespace detail {
   if (d3 >= 0 && d4 <= d3) return b;
   if (d6 >= 0 && d5 <= d6) return c;
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  const double sum = va + vb + vc;
-  return a + vb / sum * ab + vc / sum * ac;
+  // An edge of no length would give 0 / 0; its point lies on the other two.
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return a + d1 / (d1 - d3) * ab;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return a + d2 / (d2 - d6) * ac;
+  const double bc = (d4 - d3) + (d5 - d6);  // the square of that edge
+  if (va <= 0 && d4 >= d3 && d5 >= d6 && bc > 0) return b + (d4 - d3) / bc * (c - b);
+  const double sum = va + vb + vc;  // the square of twice the area
+  const V within = a + vb / sum * ab + vc / sum * ac;
+  // With edges of length L its rounding is about 1e-16 L^3 |x - a|; where it is lost in that, an edge may be nearer.
+  const double size = ab.squaredNorm() + ac.squaredNorm();
+  if (sum * sum > 1e-26 * size * size * size * (size + ax.squaredNorm())) return within;
+  const V edge = nearest_on_edges(corners, x);
+  const bool lies_within = va > 0 && vb > 0 && vc > 0;
+  return lies_within && (within - x).squaredNorm() < (edge - x).squaredNorm() ? within : edge;
 }
 
 }  // namespace detail
@@ -183,7 +205,7 @@ class TriangleTree {
         node.lower = node.lower.cwiseMin(corner);
         node.upper = node.upper.cwiseMax(corner);
       }
-      const V area = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+      const V area = area_vector(t[0], t[1], t[2]);
       node.area += area;
       weighted += area.norm() * centre_of(t);
       total += area.norm();
@@ -196,7 +218,7 @@ class TriangleTree {
     node.squared_radius = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const auto& t = triangles_[order[k]];
-      const V area = (t[1] - t[0]).cross(t[2] - t[0]) / 2;
+      const V area = area_vector(t[0], t[1], t[2]);
       const V sum = 3 * (centre_of(t) - node.centre);
       node.moment += area * sum.transpose() / 3;
       // The mean of d d^T over a triangle, by its corners.

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/surfaces.hpp"
 
@@ -138,6 +140,24 @@ TEST(CarriedSurface, RefusesWhatNothingCarries) {
   const CarriedSurface carried(vectors(ball.reference), vectors(ball.vertices), l0);
   EXPECT_THROW(carried(vectors(away), vectors(ball.vertices)), InputError);
   EXPECT_THROW(carried(vectors(ball.reference), vectors(away)), InputError);
+  auto broken = ball.vertices;
+  broken[3][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(hmps_test::message_of([&] {
+              (void)CarriedSurface(vectors(ball.reference), vectors(broken), l0);
+            }).find("hmps: component 1 of the place of point 3 of a carried surface is nan"),
+            0u);
+}
+
+TEST(CarriedSurface, RefusesToWriteWhatItReads) {
+  // As many points as particles, so that the sizes are right.
+  Ball ball;
+  const CarriedSurface carried(vectors(ball.reference), vectors(ball.reference), l0);
+  auto x = ball.reference;
+  std::vector<double> quantity(x.size(), 1);
+  EXPECT_THROW(carried(vectors(x), vectors(x)), InputError);
+  EXPECT_THROW(carried.interpolate(scalars(quantity), scalars(quantity)), InputError);
+  EXPECT_THROW(carried.mean(scalars(quantity), scalars(quantity)), InputError);
+  EXPECT_EQ(x, ball.reference);
 }
 
 }  // namespace

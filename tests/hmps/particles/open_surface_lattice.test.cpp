@@ -109,6 +109,9 @@ TYPED_TEST(OpenSurfaceLattice, SaysWhatItCannotFill) {
   sheet.triangles.resize(2);
   EXPECT_NE(message(sheet, 0.1).find("surely encloses no lattice site"), std::string::npos) << message(sheet, 0.1);
   EXPECT_NE(message(hmps::weld(joined(box, reversed(box))), 0.1).find("double-sided"), std::string::npos);
+  auto leaf = sheet;
+  leaf.triangles = {leaf.triangles[0], {leaf.triangles[0][1], leaf.triangles[0][0], leaf.triangles[0][2]}};
+  EXPECT_NE(message(joined(box, leaf), 0.1).find("double-sided"), std::string::npos);
   EXPECT_NE(message(box, 1.2).find("less than one spacing"), std::string::npos);
   EXPECT_NE(message(box, 1e-4).find("a scale of 1e-3"), std::string::npos);
   EXPECT_NE(message(box, -1).find("the lattice spacing is -1"), std::string::npos);

@@ -23,6 +23,9 @@ TEST(SurfaceEdges, CountsTheTrianglesOfEachEdge) {
   }
   EXPECT_EQ(count_unbalanced(edge_uses({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}})), 3u);
   EXPECT_TRUE(edge_uses({}).empty());
+  for (const auto& edge : edges) EXPECT_FALSE(edge.folded());
+  for (const auto& edge : edge_uses({{4, 7, 5}, {7, 4, 5}})) EXPECT_TRUE(edge.folded());
+  for (const auto& edge : edge_uses({{4, 7, 5}, {4, 7, 5}})) EXPECT_FALSE(edge.folded());
 }
 
 TEST(SurfaceEdges, FindsRepeatsInTheSameSenseOnly) {

@@ -135,6 +135,12 @@ TYPED_TEST(SurfaceMesh, SaysWhichTrianglesAreThereTwice) {
   // Beside a sound body too: the part would be missing without a word.
   const auto part = joined(box_surface<S>(V(4, 0, 0), V(5, 1, 1)), both_sides);
   EXPECT_NE(message(part).find("a part of 24 triangles"), std::string::npos) << message(part);
+  // A single triangle in both orientations, whose edges have two triangles as they should.
+  hmps::SurfaceMesh<S> leaf;
+  leaf.vertices = {V(9, 0, 0), V(10, 0, 0), V(9, 1, 0)};
+  leaf.triangles = {{0, 1, 2}, {1, 0, 2}};
+  for (const auto& mesh : {leaf, joined(box, leaf)})
+    EXPECT_NE(message(mesh).find("a part of 2 triangles"), std::string::npos) << message(mesh);
 }
 
 TYPED_TEST(SurfaceMesh, PartsMayShareTriangles) {

@@ -45,6 +45,30 @@ TEST(TriangleTree, NearestPointsOfATriangleAreNearest) {
   }
 }
 
+TEST(TriangleTree, FlatTrianglesAreTheirEdges) {
+  // From the place of two corners to the third.
+  EXPECT_EQ(
+      (hmps::detail::nearest_on_triangle({V(0, 0, 0), V(0, 0, 0), V(1, 0, 0)}, V(0.5, 1, 0)) - V(0.5, 0, 0)).norm(), 0);
+  const auto points = random_points(400, 2);
+  for (std::size_t k = 0; k + 3 < points.size(); k += 4) {
+    const V &a = points[k], &b = points[k + 1], &x = points[k + 3];
+    const V between = a + std::abs(points[k + 2][0]) / 2 * (b - a);
+    for (const std::array<V, 3>& ends :
+         {std::array{a, b, a}, std::array{a, b, b}, std::array{a, b, between}, std::array{a, a, a}})
+      for (const auto& [i, j, l] :
+           {std::array{0u, 1u, 2u}, std::array{1u, 2u, 0u}, std::array{2u, 0u, 1u}, std::array{1u, 0u, 2u}}) {
+        const bool point = ends[0] == ends[1];
+        const V nearest = point ? a : V(a + hmps::detail::nearest_on_segment<double, 3>(a, b, x) * (b - a));
+        const V found = hmps::detail::nearest_on_triangle({ends[i], ends[j], ends[l]}, x);
+        // Distances of a few units; the nearest point itself is known to the root of the rounding only.
+        EXPECT_NEAR((found - x).norm(), (nearest - x).norm(), 1e-14);
+      }
+  }
+  // A tree of one such triangle: it was skipped, and the distance infinite.
+  const hmps::SurfaceMesh<double> sliver{{V(0, 0, 0), V(0, 0, 0), V(1, 0, 0)}, {{0, 1, 2}}};
+  EXPECT_EQ(hmps::TriangleTree(sliver).distance(V(0.5, 1, 0)), 1);
+}
+
 TEST(TriangleTree, DistanceIsThatOfAllTriangles) {
   const auto torus = torus_surface<double>(2, 0.5, 40, 24);
   const hmps::TriangleTree tree(torus);
