@@ -68,7 +68,7 @@ class PatchPressure {
   PatchPressure(
       const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch, double spacing,
       const Belongs& belongs = [](std::size_t) { return true; })
-      : PatchPressure(reference, refine(patch, spacing), spacing, belongs, true) {}
+      : PatchPressure(reference, Refined<S>{refine(patch, spacing)}, spacing, belongs) {}
 
   /// Adds to `f` (N/m3) the force densities of `pressure` (Pa, positive where it presses on the body) at the positions
   /// `x` in m, for particles of the `volume` in m3, a number or a `ScalarView`. Runs in order, so that the result does
@@ -104,10 +104,15 @@ class PatchPressure {
  private:
   using V = Vector<double, 3>;
 
+  /// A patch that has edges of a spacing already.
+  template <class S>
+  struct Refined {
+    SurfaceMesh<S> mesh;
+  };
+
   template <class T, class S, class Belongs>
-  PatchPressure(const VectorView<T, 3>& reference, const SurfaceMesh<S>& fine, double spacing, const Belongs& belongs,
-                bool)
-      : carried_(reference, vectors(fine.vertices), spacing, belongs), triangles_(fine.triangles) {}
+  PatchPressure(const VectorView<T, 3>& reference, const Refined<S>& fine, double spacing, const Belongs& belongs)
+      : carried_(reference, vectors(fine.mesh.vertices), spacing, belongs), triangles_(fine.mesh.triangles) {}
 
   template <class X>
   [[nodiscard]] std::vector<V> corners(const VectorView<X, 3>& x) const {
