@@ -68,8 +68,8 @@ class OwnBonds {
   };
 
   /// For `size` particles. `weights` is one weight for all bonds, or one number per bond in the shape of `neighbours`,
-  /// or a callable `w(i, j)`, which must be symmetric. Weights must be positive and finite, also in the scalar type
-  /// `K`.
+  /// or a callable `w(i, j)`, which must be symmetric. Weights must lie between 1e-30 and 1e30, and not vanish in the
+  /// scalar type `K`. The force does not depend on their common factor.
   template <class K, BondNeighbours N, class W>
   static OwnBonds make(std::size_t size, const N& neighbours, const W& weights) {
     OwnBonds own(size);
@@ -148,9 +148,17 @@ class OwnBonds {
       else
         return static_cast<double>(given());
     }();
+    if constexpr (!std::is_arithmetic_v<W> && !is_given<W>) {
+      const double back = static_cast<double>(weights(j, i));
+      require(back == w || !is_finite(w), "hmps: the bond of particles ", i, " and ", j, " has the weight ", w,
+              " as w(", i, ", ", j, ") and ", back, " as w(", j, ", ", i, "); both must be the same");
+    }
     require(is_finite(w) && is_finite(static_cast<K>(w)) && static_cast<K>(w) > K(0),
             "hmps: the weight of the bond of particles ", i, " and ", j, " is ", w,
             "; it must be positive and finite in the scalar of the bonds. Leave out bonds that are to carry nothing");
+    // Further out, products of weights overflow or vanish in the inverse of A.
+    require(w >= 1e-30 && w <= 1e30, "hmps: the weight of the bond of particles ", i, " and ", j, " is ", w,
+            "; give weights between 1e-30 and 1e30, as a common factor of all changes nothing");
     return w;
   }
 

@@ -170,8 +170,11 @@ class MetaballContact {
   }
 
   /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second in the latest call:
-  /// the force of the second organ on the first. Each particle has the volume l0^D.
+  /// the force of the second organ on the first. Each particle has the volume l0^D. Throws `InputError` for a pair that
+  /// is not there.
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
+    require(pair < lists_.organs().pairs().size(), "hmps: there is no pair ", pair, ", only ",
+            lists_.organs().pairs().size(), " pairs, counted from 0");
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const Index r : touching_) {
       const auto& side = lists_.organs().sides()[lists_.active().rows()[r].side];

@@ -57,12 +57,17 @@ class Pressure {
   }
 
   /// Adds the force density (N/m3) of the pressure `p` (Pa, positive if it pushes inwards) at the deformation gradients
-  /// `F` to `f`. Throws `InputError` for views of the wrong size and a pressure that is not finite.
+  /// `F` to `f`. Throws `InputError` for views of the wrong size, a pressure that is not finite, and a deformation
+  /// gradient that is zero, which means that nothing has written it.
   template <class M, class T, Executor E = Serial>
   void add(const MatrixView<M, D>& F, const VectorView<T, D>& f, double p, const E& execute = {}) const {
     require_size(F, size_, "deformation gradients");
     require_size(f, size_, "force densities");
     require(detail::is_finite(p), "hmps: the pressure is ", p, " Pa; give a finite number");
+    for (const Index i : particles_)
+      require(!F[i].isZero(0), "hmps: the deformation gradient of particle ", i,
+              " is zero, so that no pressure acts there: evaluate the force with `record(F)` among its terms, or "
+              "`deformation_gradient`, before the pressure");
     execute(particles_.size(), [&](std::size_t k) {
       const Index i = particles_[k];
       const Matrix<double, D> gradient = F[i].template cast<double>();

@@ -12,6 +12,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -47,13 +48,20 @@ template <class T>
   return field;
 }
 
-/// `components` numbers per particle, number c of particle i by `at(i, c)`.
+/// `components` numbers per particle, number c of particle i by `at(i, c)`. Throws `InputError` for a finite number
+/// that is infinite as a `T`.
 template <class T, class At>
 [[nodiscard]] VtkField collect(std::string name, std::size_t size, int components, const At& at) {
   std::vector<T> values;
   values.reserve(size * static_cast<std::size_t>(components));
   for (std::size_t i = 0; i < size; ++i)
-    for (int c = 0; c < components; ++c) values.push_back(static_cast<T>(at(i, c)));
+    for (int c = 0; c < components; ++c) {
+      const auto value = at(i, c);
+      if constexpr (std::is_floating_point_v<T> && sizeof(value) > sizeof(T))
+        require(!is_finite(value) || is_finite(static_cast<T>(value)), "hmps: the field ", name, " is ", value,
+                " at particle ", i, ", which single precision does not hold; use vtk_field<double>");
+      values.push_back(static_cast<T>(value));
+    }
   return as_field(std::move(name), components, values);
 }
 
@@ -61,8 +69,8 @@ template <class T, class At>
 
 /// A number per particle as a field called `name`: `vtk_field("J", scalars(j))`. Floating-point numbers are written as
 /// `Real`; single precision is enough to look at, `vtk_field<double>(...)` keeps all digits. Whole numbers, such as the
-/// organ of each particle, are written in 32 bits. Throws `InputError` for one that does not fit, and for a view of no
-/// memory.
+/// organ of each particle, are written in 32 bits. NaN and infinity are written as they are, so that a run that has
+/// become unstable can be looked at. Throws `InputError` for a number that does not fit, and for a view of no memory.
 template <class Real = float, class T>
 [[nodiscard]] VtkField vtk_field(std::string name, const ScalarView<T>& view) {
   require_view(view, name.c_str());
@@ -82,9 +90,8 @@ template <class Real = float, class T>
 template <class Real = float, class T, int D>
 [[nodiscard]] VtkField vtk_field(std::string name, const VectorView<T, D>& view) {
   require_view(view, name.c_str());
-  return detail::collect<Real>(std::move(name), view.size(), 3, [&](std::size_t i, int c) -> Real {
-    return c < D ? static_cast<Real>(view(i, c)) : Real(0);
-  });
+  return detail::collect<Real>(std::move(name), view.size(), 3,
+                               [&](std::size_t i, int c) { return c < D ? view(i, c) : T(0); });
 }
 
 /// A tensor per particle as a field of nine numbers called `name`, row by row, as ParaView's Tensor Glyph and
@@ -93,9 +100,9 @@ template <class Real = float, class T, int D>
 template <class Real = float, class T, int D>
 [[nodiscard]] VtkField vtk_field(std::string name, const MatrixView<T, D>& view) {
   require_view(view, name.c_str());
-  return detail::collect<Real>(std::move(name), view.size(), 9, [&](std::size_t i, int c) -> Real {
+  return detail::collect<Real>(std::move(name), view.size(), 9, [&](std::size_t i, int c) {
     const int row = c / 3, column = c % 3;
-    return row < D && column < D ? static_cast<Real>(view(i, row + D * column)) : Real(0);
+    return row < D && column < D ? view(i, row + D * column) : T(0);
   });
 }
 

@@ -117,8 +117,8 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
     const VtkField& field = fields[k];
     require(!field.name.empty(), "hmps: field ", k, " of a VTU file has no name; ParaView needs one");
     require(std::none_of(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(k),
-                         [&](const VtkField& other) { return other.name == field.name; }),
-            "hmps: two fields of a VTU file are called ", field.name, "; give each a name of its own");
+                         [&](const VtkField& other) { return xml(other.name) == xml(field.name); }),
+            "hmps: two fields of a VTU file are called ", xml(field.name), "; give each a name of its own");
     require(field.bytes.size() == size * field.width() * static_cast<std::size_t>(field.components), "hmps: the field ",
             field.name, " of a VTU file has ", field.size(), " particles but there are ", size,
             " positions; give both of the same particles");

@@ -595,6 +595,7 @@ TEST(Door, RefusesBadInput) {
   EXPECT_THROW(contact.add_pair(a, b), hmps::InputError) << "particle 2 is in both";
   EXPECT_THROW(contact.add_pair(a, a), hmps::InputError);
   EXPECT_THROW(contact.add_pair(a, 7), hmps::InputError);
+  EXPECT_THROW((void)contact.force_on_first(0), hmps::InputError) << "there is no pair yet";
   EXPECT_THROW(contact.add_pair(a, c), hmps::InputError) << "c has no masters";
 
   Contact good(with_friction);

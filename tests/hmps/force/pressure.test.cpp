@@ -103,6 +103,11 @@ TEST(Pressure, RefusesBadInput) {
   const hmps::Pressure top(s.bonds, s.set([](const Vector& X) { return X[2] > 0.003; }));
   const auto F = hmps::matrices(s.gradient);
   const auto f = hmps::vectors(s.load);
+  const hmps::Index last = static_cast<hmps::Index>(s.reference.size() - 1);
+  s.deform(Tensor::Identity());
+  s.gradient[last].setZero();  // as where nothing has written it
+  EXPECT_NE(text([&] { top.add(F, f, 1.0); }).find(hmps::message("of particle ", last, " is zero")), std::string::npos);
+  s.deform(Tensor::Identity());
   EXPECT_THROW(top.add(F.part(0, 3), f, 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f.part(0, 3), 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace {
 
@@ -25,6 +27,19 @@ TEST(VtkField, HoldsNumbersInSinglePrecisionUnlessAsked) {
   EXPECT_EQ(exact.type, "Float64");
   EXPECT_EQ(numbers<double>(exact), j);
   EXPECT_EQ(exact.size(), 2u);
+}
+
+TEST(VtkField, RefusesWhatOverflowsAndKeepsWhatIsNotFinite) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> j{1, 1e300};
+  EXPECT_THROW((void)vtk_field("J", scalars(j)), InputError);
+  EXPECT_EQ(numbers<double>(vtk_field<double>("J", scalars(j))), j);
+  std::vector<Matrix<double, 2>> stress{Matrix<double, 2>::Constant(-1e200)};
+  EXPECT_THROW((void)vtk_field("s", matrices(stress)), InputError);
+  j = {std::numeric_limits<double>::quiet_NaN(), -infinity};
+  const auto written = numbers<float>(vtk_field("J", scalars(j)));
+  EXPECT_TRUE(std::isnan(written[0]));
+  EXPECT_EQ(written[1], -infinity);
 }
 
 TEST(VtkField, HoldsWholeNumbersThatFit) {

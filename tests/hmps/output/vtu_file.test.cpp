@@ -50,6 +50,9 @@ TEST(VtuFile, RefusesWhatDoesNotFit) {
             std::string::npos);
   EXPECT_NE(write({vtk_field("J", scalars(cloud.j)), vtk_field("J", scalars(cloud.j))}).find("two fields"),
             std::string::npos);
+  // In the file both are "J?".
+  EXPECT_NE(write({vtk_field("J\n", scalars(cloud.j)), vtk_field("J\t", scalars(cloud.j))}).find("two fields"),
+            std::string::npos);
   EXPECT_NE(write({vtk_field("", scalars(cloud.j))}).find("no name"), std::string::npos);
   EXPECT_NE(write({}, {.time = std::numeric_limits<double>::infinity()}).find("time"), std::string::npos);
   EXPECT_NE(write({vtk_field("J", scalars(cloud.j))}, {.names = {{"J", {"a"}}}}).find("no field of whole numbers"),
