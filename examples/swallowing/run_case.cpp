@@ -148,6 +148,10 @@ class Run {
                                " % of the limit at rest; ", simulation_.limited_by(), " (",
                                name(scene_.organ[limit.particle]), ")\n");
   }
+  /// Whether the model has the control region: model Y has no F, and H can be left out.
+  [[nodiscard]] bool has_region(std::string_view name) const {
+    return (name != "F" || chosen_.model == Model::X) && (name != "H" || options_.constrictors);
+  }
   /// How many particles each control region has, those of one name together. One without any moves nothing: that must
   /// not go unseen.
   void describe_regions() const {
@@ -156,6 +160,7 @@ class Run {
     for (std::size_t r = 0; r < particles.size(); ++r) {
       const Region& region = scene_.regions[r];
       const std::string name = region.kind == Region::door ? "H" : region.name;
+      if (!has_region(name)) continue;
       auto at = std::find_if(counts.begin(), counts.end(), [&](const auto& count) { return count.first == name; });
       if (at == counts.end()) at = counts.insert(counts.end(), {name, 0});
       at->second += particles[r].size();
