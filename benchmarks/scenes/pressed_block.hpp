@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <hmps/hmps.hpp>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -38,7 +39,8 @@ struct BlockSettings {
   double spacing, density, young, d1, modulus, viscosity;  ///< of the block; the modulus is E_hat
   double pressure, area;                                   ///< of the plate on top
   double friction, ratio;                                  ///< of the contact; the ratio is k~
-  double damping = 0, margin = 0.5;
+  std::optional<double> damping = {};                      ///< nothing: that of the friction law
+  double margin = 0.5;
 };
 
 template <class B, class M>

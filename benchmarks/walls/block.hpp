@@ -28,6 +28,8 @@ struct Scene {
   double friction = 0;
   double incline = 0;  ///< degrees; free if not zero
   bool soft = false;   ///< it is the block that is cut, not the wall
+  bool viscous = true;
+  double settled = 0.08;  ///< s, after which a free block is measured
 
   [[nodiscard]] bool free() const { return incline != 0; }
 };
@@ -53,12 +55,14 @@ struct Scene {
   return parts;
 }
 
-/// What a run gave. Means are over whole steps of the stairs, on the incline over the second half.
+inline constexpr double measured = 0.08;  // s, of a free block
+
+/// What a run gave. Means are over whole steps of the stairs, on the incline over the time after the block has settled.
 struct Outcome {
   double friction = 0;      ///< mean tangential over mean normal force
   double ripple = 0;        ///< rms of the normal force about the load, over the load
   double acceleration = 0;  ///< of the free block, m/s2
-  double moved = 0;         ///< of the free block, m
+  double moved = 0;         ///< of the free block, m, in `measured`
   double shaking = 0;       ///< of the free block, rms of its particles' speed, m/s
   double seconds = 0;       ///< of the processor, per step, for the contact
 };
@@ -70,7 +74,7 @@ class Slide {
   explicit Slide(const Scene& scene)
       : scene_(scene),
         stretch_(Wall{.degrees = scene.degrees, .spacing = spacing}.stretch()),
-        block_(parts_of(scene, stretch_), settings(scene.friction),
+        block_(parts_of(scene, stretch_), settings(scene),
                [](auto& force, const auto& x, const auto& v) {
                  return 0.6 * std::sqrt(1 - ratio) * hmps::stable_step(force, x, v, density, {.spacing = spacing}).step;
                }),
@@ -83,7 +87,7 @@ class Slide {
   }
 
   [[nodiscard]] Outcome run() {
-    constexpr double settled = 0.08, until = 0.16;  // s, of the free block
+    const double settled = scene_.settled, until = settled + measured;
     double normal = 0, tangential = 0, squares = 0, shaking = 0, start_place = 0, start_speed = 0;
     int samples = 0, steps = 0;
     for (double time = 0; scene_.free() ? time < until : !back_ || way_ > lead; time += block_.dt, ++steps) {
@@ -108,16 +112,16 @@ class Slide {
  private:
   static constexpr double ratio = 0.05, area = width * width;
 
-  static scenes::BlockSettings settings(double friction) {
+  static scenes::BlockSettings settings(const Scene& scene) {
     return {.spacing = spacing,
             .density = density,
             .young = young,
             .d1 = bulk,
             .modulus = young / 2,
-            .viscosity = viscosity,
+            .viscosity = scene.viscous ? viscosity : 0,
             .pressure = pressure,
             .area = area,
-            .friction = friction,
+            .friction = scene.friction,
             .ratio = ratio};
   }
   [[nodiscard]] std::size_t count() const { return block_.parts.block; }

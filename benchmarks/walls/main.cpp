@@ -205,6 +205,50 @@ void draw(const std::vector<Found>& all, const std::filesystem::path& path) {
   return table;
 }
 
+/// The drift in um/s of a block on an incline at 95 % of the friction limit: on the wall along its lattice, and the
+/// largest on the walls as cut and on the raised ones.
+struct Drift {
+  double along = 0, cut = 0, raised = 0;
+};
+template <class Friction>
+[[nodiscard]] Drift drift_at_the_limit(double coefficient, bool viscous, bool quick) {
+  Drift drift;
+  const double incline = std::atan(0.95 * coefficient) * 180 / std::numbers::pi;
+  for (const bool raised : {false, true})
+    for (const double degrees : angles) {
+      if ((raised && degrees == 0) || (quick && degrees != 15)) continue;
+      const Outcome held = run<hmps::SmoothMetaball, Friction>({.degrees = degrees,
+                                                                .raised = raised,
+                                                                .friction = coefficient,
+                                                                .incline = incline,
+                                                                .viscous = viscous,
+                                                                .settled = quick ? 0.15 : 0.3});
+      double& largest = degrees == 0 ? drift.along : raised ? drift.raised : drift.cut;
+      largest = std::max(largest, 1e6 * std::abs(held.moved) / measured);
+    }
+  return drift;
+}
+
+/// Which law holds a block for long?
+[[nodiscard]] Table limit(bool quick) {
+  Table table{"limit", {"Law", "Viscosity, m2/s", "mu", "Along the lattice, um/s", "As cut, um/s", "Raised, um/s"}};
+  const auto add = [&](const std::string& law, bool viscous, auto drift_of) {
+    for (const double coefficient : {0.1, 0.3, 0.5, 1.0}) {
+      if (quick && coefficient != 0.3) continue;
+      const Drift drift = drift_of(coefficient, viscous, quick);
+      table.rows.push_back({law, digits(viscous ? viscosity : 0), digits(coefficient), digits(drift.along, 2),
+                            digits(drift.cut, 2), digits(drift.raised, 2)});
+      if (law == "spring" && viscous)
+        table.check(std::max({drift.along, drift.cut, drift.raised}) < 0.1,
+                    "mu = " + digits(coefficient) + ": the spring holds every block within 0.1 um/s");
+    }
+  };
+  add("corrected", true, drift_at_the_limit<hmps::CorrectedFriction>);
+  add("spring", true, drift_at_the_limit<hmps::SpringFriction>);
+  if (!quick) add("spring", false, drift_at_the_limit<hmps::SpringFriction>);
+  return table;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -221,5 +265,6 @@ int main(int argc, char** argv) {
     study.publish(table_of(all),
                   {"walls.png", "Error of friction over the angle", [&](const auto& path) { draw(all, path); }});
     study.publish(friction(study.quick));
+    study.publish(limit(study.quick));
   });
 }
