@@ -20,7 +20,7 @@ build_study() {
 # writes_page ARGUMENT...: whether a run with these arguments of the user's is to write the page.
 writes_page() {
   for argument in "$@"; do
-    case "$argument" in --quick | --list | --help | --out | --out=*) return 1 ;; esac
+    case "$argument" in --quick | --list | -h | --help | --out | --out=*) return 1 ;; esac
   done
 }
 

@@ -53,7 +53,7 @@ std::string Study::page() const {
 }
 void Study::save(const std::string& page) const {
   if (document.empty()) return;
-  examples::prepare_folder(fs::path(document).parent_path());
+  examples::prepare_folder(fs::absolute(document).parent_path());
   examples::write_atomically(document, page);
 }
 void Study::draw(const Picture& picture) const {

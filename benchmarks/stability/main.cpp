@@ -46,25 +46,25 @@ int main(int argc, char** argv) {
   report::Study study("stability",
                       "Survival map: extremes stepped up until they fail, and the estimate of the largest stable step",
                       "a few problems, to see that the properties hold, in seconds");
+  std::vector<Ratio> ratios;
+  const std::pair<std::string, std::function<Table()>> groups[] = {
+      {"courant", [&] { return courant(study.quick, ratios); }},
+      {"refresh", [&] { return refresh(study.quick); }},
+      {"inversion", [&] { return inversion(study.quick); }},
+      {"deformation", [&] { return deformation(study.quick); }},
+      {"impact", [&] { return impact(study.quick); }},
+      {"partners", [&] { return partners(study.quick); }},
+      {"endurance", [&] { return endurance(study.quick); }},
+      {"door", [] { return door(); }},
+  };
+  std::vector<std::string> names;
+  for (const auto& [name, measure] : groups) names.push_back(name);
   std::string only;
-  study.app.add_option("--only", only,
-                       "one group: courant, refresh, inversion, deformation, impact, partners, endurance, door");
+  study.app.add_option("--only", only, "one group alone")->type_name("NAME")->check(CLI::IsMember(names));
   return study.run(argc, argv, [&] {
-    std::vector<Ratio> ratios;
-    const std::pair<const char*, std::function<Table()>> groups[] = {
-        {"courant", [&] { return courant(study.quick, ratios); }},
-        {"refresh", [&] { return refresh(study.quick); }},
-        {"inversion", [&] { return inversion(study.quick); }},
-        {"deformation", [&] { return deformation(study.quick); }},
-        {"impact", [&] { return impact(study.quick); }},
-        {"partners", [&] { return partners(study.quick); }},
-        {"endurance", [&] { return endurance(study.quick); }},
-        {"door", [] { return door(); }},
-    };
     const report::Picture picture{"stability.png", "Step and limit of stable_step over the largest step that holds",
                                   [&](const auto& path) { draw(ratios, path); }};
     for (const auto& [name, measure] : groups)
-      if (only.empty() || only == name)
-        study.publish(measure(), name == std::string("courant") ? picture : report::Picture{});
+      if (only.empty() || only == name) study.publish(measure(), name == "courant" ? picture : report::Picture{});
   });
 }

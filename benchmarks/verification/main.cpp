@@ -15,11 +15,13 @@ namespace {
 
 using namespace verification;
 
-/// All problems with their runs: those of `wanted` problems anew, the others from the table in `file`. It is written
-/// after each problem, so that nothing is lost if the next one is stopped.
-std::vector<Solved> solve_all(const std::vector<Problem>& all, const std::filesystem::path& file,
-                              const std::function<bool(const Problem&)>& wanted) {
-  const std::string old = std::filesystem::exists(file) ? examples::read_file(file) : "";
+/// How many runs a problem has.
+std::size_t runs_of(const Problem& problem) { return problem.methods.size() * problem.sizes.size(); }
+
+/// All problems with their runs: those of `wanted` problems anew, the others from the table `old`. The table in `file`
+/// is written after each problem, so that nothing is lost if the next one is stopped.
+std::vector<Solved> solve_all(const std::vector<Problem>& all, const std::string& old,
+                              const std::filesystem::path& file, const std::function<bool(const Problem&)>& wanted) {
   std::vector<Solved> solved;
   for (const Problem& problem : all) solved.push_back({problem, read_trials(problem, old)});
   for (Solved& one : solved) {
@@ -45,10 +47,13 @@ int main(int argc, char** argv) {
                       "only the three smallest sizes of each");
   std::vector<std::string> chosen;
   bool tables = false, list = false;
-  study.app.add_option("--only", chosen, "problems to run anew; the rest is taken from the table in --out")
+  study.app
+      .add_option("--only", chosen,
+                  "problems to run anew; the rest is taken from the table in --out, or else beside --document")
       ->type_name("NAME");
   study.app.add_flag("--list", list, "names of the problems");
-  study.app.add_flag("--tables", tables, "run nothing: write page and picture anew from the table in --out");
+  study.app.add_flag("--tables", tables,
+                     "run nothing: write page and picture anew from the table in --out, or else beside --document");
   return study.run(argc, argv, [&] {
     std::vector<Problem> all = problems();
     if (list)
@@ -59,14 +64,24 @@ int main(int argc, char** argv) {
                     "verification: there is no problem ", name, "; --list names them");
     for (Problem& problem : all)
       if (study.quick && problem.sizes.size() > 3) problem.sizes.resize(3);
-    const std::vector<Solved> solved = solve_all(all, study.out / "verification.csv", [&](const Problem& problem) {
+    const auto wanted = [&](const Problem& problem) {
       return !tables && (chosen.empty() || std::find(chosen.begin(), chosen.end(), problem.name) != chosen.end());
-    });
+    };
+    const std::filesystem::path table = study.out / "verification.csv",
+                                beside = std::filesystem::path(study.document).parent_path() / "verification.csv";
+    // On a fresh clone, the table is beside the page alone.
+    const auto& known = std::filesystem::exists(table) || study.document.empty() ? table : beside;
+    const std::string old = std::filesystem::exists(known) ? examples::read_file(known) : "";
+    // The page is of all problems, but for that of a quick run, which nobody keeps.
+    if (tables || !(study.document.empty() || study.quick))
+      for (const Problem& problem : all)
+        hmps::require(wanted(problem) || read_trials(problem, old).size() == runs_of(problem), known.string(),
+                      " does not have all runs of ", problem.name, "; run it too, by --only, or run all problems");
+    const std::vector<Solved> solved = solve_all(all, old, table, wanted);
     std::printf("%s\n", summary(solved).c_str());
     draw(solved, study.out / "verification.png");
     study.draw({"verification.png", "", [&](const auto& path) { draw(solved, path); }});
     study.save(page_of(solved));
-    if (!study.document.empty())
-      examples::write_atomically(std::filesystem::path(study.document).parent_path() / "verification.csv", csv(solved));
+    if (!study.document.empty()) examples::write_atomically(beside, csv(solved));
   });
 }

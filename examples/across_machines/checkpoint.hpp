@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../common/checksum.hpp"
 #include "../common/files.hpp"
 #include "messages.hpp"
 #include "simulation.hpp"
@@ -30,17 +31,6 @@ struct CheckpointHeader {
   std::uint64_t step = 0;
 };
 
-[[nodiscard]] inline std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (std::size_t at = 0; at < bytes.size(); at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min<std::size_t>(8, bytes.size() - at));
-    sum = (sum ^ word) * 0x9e3779b97f4a7c15;
-    sum ^= sum >> 29;
-  }
-  return sum;
-}
-
 /// Writes the state at the end of `step`; the file at `path` is whole at any moment.
 inline void write_checkpoint(const std::filesystem::path& path, const RunSettings& settings, std::uint64_t step,
                              const State& state) {
@@ -50,7 +40,7 @@ inline void write_checkpoint(const std::filesystem::path& path, const RunSetting
   std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
   for (const auto* vectors : {&state.x, &state.v})
     bytes.append(reinterpret_cast<const char*>(vectors->data()), vectors->size() * sizeof(Vector));
-  const std::uint64_t sum = checksum(bytes);
+  const std::uint64_t sum = examples::checksum(bytes);
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
   examples::write_atomically(path, bytes);
 }
@@ -70,7 +60,7 @@ inline void write_checkpoint(const std::filesystem::path& path, const RunSetting
                 " was written on a machine with another order of bytes");
   std::uint64_t sum = 0;
   std::memcpy(&sum, bytes.data() + bytes.size() - 8, 8);
-  hmps::require(sum == checksum(std::string_view(bytes).substr(0, bytes.size() - 8)), "hmps: ", path.string(),
+  hmps::require(sum == examples::checksum(std::string_view(bytes).substr(0, bytes.size() - 8)), "hmps: ", path.string(),
                 " is damaged: its checksum does not match; start anew without --resume");
   hmps::require(header.settings.particles == settings.particles && header.settings.dt == settings.dt,
                 "hmps: ", path.string(), " is of a run of ", header.settings.particles,

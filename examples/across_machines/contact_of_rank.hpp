@@ -73,7 +73,8 @@ class ContactOfRank {
       begins_[r] = static_cast<int>(3 * entry_.size());
       entry_.insert(entry_.end(), entries[r].begin(), entries[r].end());
     }
-    for (const Index k : entries[static_cast<std::size_t>(ranks.rank)]) own_.push_back(place_of(surface_[k].particle));
+    for (const Index k : entries[static_cast<std::size_t>(ranks.rank)])
+      own_.push_back(part_.place_of(surface_[k].particle));
     surveyed_.resize(own_.size());
   }
 
@@ -173,10 +174,6 @@ class ContactOfRank {
   static constexpr double radius = hmps::SmoothMetaball::radius * l0;
 
   [[nodiscard]] bool mine(std::size_t entry) const { return part_of_[surface_[entry].particle] == ranks_.rank; }
-  [[nodiscard]] Index place_of(Index particle) const {
-    const auto own = part_.particles.begin() + static_cast<std::ptrdiff_t>(part_.own);
-    return static_cast<Index>(std::lower_bound(part_.particles.begin(), own, particle) - part_.particles.begin());
-  }
 
   /// Makes the arrays and the contact of what was gathered.
   void keep(const std::vector<Gathered>& gathered) {
@@ -189,12 +186,12 @@ class ContactOfRank {
       surface.push_back(surface_[gathered[k].entry]);
       particle_.push_back(i);
       if (mine(gathered[k].entry))
-        copies_.emplace_back(place_of(i), here);
+        copies_.emplace_back(part_.place_of(i), here);
       else
         wanted.push_back({i, here});
     }
     peers_ = introduce(
-        ranks_, wanted, {}, [&](Index i) { return part_of_[i]; }, [&](Index i) { return place_of(i); });
+        ranks_, wanted, {}, [&](Index i) { return part_of_[i]; }, [&](Index i) { return part_.place_of(i); });
     x_.resize(gathered.size());
     v_.resize(gathered.size());
     F_.resize(gathered.size());

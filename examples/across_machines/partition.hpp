@@ -20,6 +20,12 @@ struct Part {
   std::vector<Index> particles;  ///< the own ones, then the first layer, then the second; ascending in each
   std::size_t own = 0;           ///< number of its own
   std::size_t held = 0;          ///< number of its own and of the first layer
+
+  /// Where the own `particle` of the scene stands in `particles`.
+  [[nodiscard]] Index place_of(Index particle) const {
+    const auto end = particles.begin() + static_cast<std::ptrdiff_t>(own);
+    return static_cast<Index>(std::lower_bound(particles.begin(), end, particle) - particles.begin());
+  }
 };
 
 /// Cuts parts out of a scene, one after the other.

@@ -95,12 +95,12 @@ class Simulation {
     // displacement on one machine.
     middle_ = static_cast<Index>(scene.size() / 2);
     middle_rank_ = part_of[middle_];
-    if (middle_rank_ == ranks.rank) middle_place_ = place_of(middle_);
+    if (middle_rank_ == ranks.rank) middle_place_ = part.place_of(middle_);
     std::vector<Wanted> first, second;
     for (std::size_t k = own; k < part.particles.size(); ++k)
       (k < part.held ? first : second).push_back({part.particles[k], static_cast<Index>(k)});
     peers_ = introduce(
-        ranks, first, second, [&](Index i) { return part_of[i]; }, [&](Index i) { return place_of(i); });
+        ranks, first, second, [&](Index i) { return part_of[i]; }, [&](Index i) { return part.place_of(i); });
   }
 
   /// From t - dt to t. Every rank has to call it.
@@ -153,10 +153,6 @@ class Simulation {
   }
   [[nodiscard]] static hmps::BondSettings settings(const Scene& scene) {
     return {.spacing = l0, .unbonded = true, .axes = scene.axes()};
-  }
-  [[nodiscard]] Index place_of(Index particle) const {
-    const auto end = part_.particles.begin() + static_cast<std::ptrdiff_t>(part_.own);
-    return static_cast<Index>(std::lower_bound(part_.particles.begin(), end, particle) - part_.particles.begin());
   }
   [[nodiscard]] hmps::VectorView<double, 3> own(std::vector<Vector>& all) const {
     return hmps::vectors<3>(all.data()->data(), part_.own);

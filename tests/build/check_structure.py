@@ -83,10 +83,10 @@ def circle(graph):
     return []
 
 
-def lengths(name, text, key):
+def lengths(name, text):
     """What is too long in a file."""
     lines = text.count("\n")
-    if lines > MOST_LINES and key != "hmps/hmps.hpp":
+    if lines > MOST_LINES and name != "include/hmps/hmps.hpp":
         yield f"{name} has {lines} lines; {MOST_LINES} are allowed"
     for line, length in functions(text):
         if length > MOST_FUNCTION_LINES:
@@ -97,7 +97,7 @@ def check_benchmarks(root):
     folders = {path.name for path in (root / "benchmarks").iterdir() if path.is_dir()}
     for path in sorted((root / "benchmarks").rglob("*.[hc]pp")):
         name, text = str(path.relative_to(root)), path.read_text(encoding="utf-8")
-        yield from lengths(name, text, name)
+        yield from lengths(name, text)
         folder = name.split("/")[1]
         for other in QUOTED.findall(text):
             target = other.split("/")[0]
@@ -113,7 +113,7 @@ def check(root):
         name = str(path.relative_to(root / "include"))
         text = path.read_text(encoding="utf-8")
         graph[name] = INCLUDE.findall(text)
-        problems += lengths(f"include/{name}", text, name)
+        problems += lengths(f"include/{name}", text)
         folder = name.split("/")[1]
         if name == "hmps/hmps.hpp":
             continue

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "../../common/checksum.hpp"
+
 namespace swallowing {
 
 namespace {
@@ -13,21 +15,9 @@ constexpr std::uint64_t version = 3;
 /// Reads back as another number where the order of bytes differs.
 constexpr std::uint64_t byte_order = 0x0102030405060708;
 
-/// A checksum of 64 bits over whole words, fast enough not to be noticed. Every step is invertible,
-/// so that no change of one word goes unseen.
+/// Of the length as well: the last word of `bytes` is filled up with zeros.
 [[nodiscard]] std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  const auto mix = [&](std::uint64_t word) {
-    sum = (sum ^ word) * 0x9e3779b97f4a7c15;
-    sum ^= sum >> 29;
-  };
-  mix(bytes.size());
-  for (std::size_t at = 0; at < bytes.size(); at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min<std::size_t>(8, bytes.size() - at));
-    mix(word);
-  }
-  return sum;
+  return examples::checksum(bytes, examples::add_to_checksum(examples::checksum_of_nothing, bytes.size()));
 }
 
 struct Writer {

@@ -45,6 +45,19 @@ TEST_F(Program, PublishesATableItsSectionAndItsPicture) {
   EXPECT_EQ(examples::read_file(path("page/study.md")),
             "\n<!-- begin one -->\n\n| a |\n|---|\n| 1 |\n\n![a picture](images/one.png)\n\n<!-- end one -->\n");
 }
+TEST_F(Program, WritesThePageInTheFolderWhereItRuns) {
+  examples::prepare_folder(path(""));
+  const fs::path before = fs::current_path();
+  fs::current_path(path(""));
+  const int code = run({"--out", path("out"), "--document", "study.md"}, [](Study& study) {
+    study.publish({.name = "one", .header = {"a"}},
+                  {"one.png", "", [](const auto& file) { examples::write_atomically(file, "drawn"); }});
+  });
+  fs::current_path(before);
+  EXPECT_EQ(code, 0);
+  EXPECT_TRUE(fs::exists(path("study.md")));
+  EXPECT_EQ(examples::read_file(path("images/one.png")), "drawn");
+}
 TEST_F(Program, WritesNoPageThatIsNotAskedFor) {
   ASSERT_EQ(run({"--out", path("out")},
                 [](Study& study) {

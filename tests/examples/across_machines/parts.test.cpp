@@ -44,6 +44,7 @@ TEST(Parts, HaveEveryParticleOnceAndTwoLayersOfNeighbours) {
         for (std::size_t i = 0; i < layer.size(); ++i)
           if (layer[i] == l) expected.push_back(static_cast<Index>(i));
       EXPECT_EQ(part.particles, expected);
+      for (std::size_t k = 0; k < part.own; ++k) EXPECT_EQ(part.place_of(part.particles[k]), k);
       EXPECT_EQ(part.held,
                 static_cast<std::size_t>(std::count_if(layer.begin(), layer.end(), [](int l) { return l < 2; })));
     }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstring>
 #include <random>
 
 #include "folder.hpp"
@@ -54,6 +55,23 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_TRUE(read->get<double>("none").empty());
   EXPECT_TRUE(read->contains("none"));
   EXPECT_FALSE(read->contains("nothing"));
+}
+
+/// So that what was written before can be read.
+TEST(Checkpoint, KeepsItsBytes) {
+  TestFolder folder;
+  const auto path = folder.path / "checkpoint.bin";
+  Checkpoint c;
+  c.settings = {{"case", "X1"}};
+  c.time = 0.5;
+  c.step = 7;
+  c.set("a", std::vector<double>{1, 2});
+  c.save(path);
+  const std::string bytes = examples::read_file(path);
+  ASSERT_EQ(bytes.size(), 146U);
+  std::uint64_t sum = 0;
+  std::memcpy(&sum, bytes.data() + 138, 8);
+  EXPECT_EQ(sum, 14623905792426564927U);
 }
 
 TEST(Checkpoint, SetTwiceKeepsTheLast) {
