@@ -31,7 +31,7 @@ its share of the time of 20,000 particles in touch here, on a busy one (0.33 and
 runs; 0.35 is taken); messages are those of `--measure-network` there.)";
 }
 
-__attribute__((format(printf, 1, 2))) [[nodiscard]] inline std::string format(const char* pattern, ...) {
+[[nodiscard, gnu::format(printf, 1, 2)]] inline std::string format(const char* pattern, ...) {
   char text[4000];
   va_list arguments;
   va_start(arguments, pattern);
