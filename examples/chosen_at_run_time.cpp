@@ -24,6 +24,10 @@ struct Tissue {
 
 int main(int count, char** arguments) {
   const std::string chosen = count > 1 ? arguments[1] : "damped";
+  if (count > 2 || (chosen != "elastic" && chosen != "damped")) {
+    std::fprintf(stderr, "chosen_at_run_time: there is no force %s; give elastic or damped\n", chosen.c_str());
+    return 2;
+  }
   const double l0 = 2e-3, rho = 1000, dt = 2e-5, volume = l0 * l0 * l0;  // m, kg/m3, s, m3
   const hmps::Box<double, 3> block{Vector::Zero(), Vector(0.012, 0.008, 0.008)};
   const std::vector<Vector> reference = hmps::fill_lattice(block, block, l0, Vector(Vector::Constant(l0 / 2)));
