@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
@@ -78,14 +79,23 @@ void require_finite_result(const View<R, N>& values, const MatrixView<T, D>& F, 
   }
 }
 
-/// Writes `value(law, F)`, in double, of every particle by `write(i, value)`.
-template <class T, int D, class Material, class Value, class Write, class E>
-void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const Value& value, const Write& write,
-                     const E& execute) {
+/// Writes `value(law, F)`, in double, of every particle to `stress`, called `name`; with the errors of
+/// `cauchy_stresses`.
+template <class T, int D, class Material, class R, int N, class Value, class E>
+void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const View<R, N>& stress, const char* name,
+                     const Value& value, const E& execute) {
+  require_view(F, "deformation gradients");
+  require_size(stress, F.size(), "stresses");
+  require_apart(stress, "stresses", F, "deformation gradients");
   execute(F.size(), [&](std::size_t i) {
     const Matrix<double, D> gradient = F[i].template cast<double>();
-    write(i, value(value_at(material, OneParticle{i}), gradient));
+    const auto result = value(value_at(material, OneParticle{i}), gradient);
+    if constexpr (std::is_arithmetic_v<decltype(result)>)
+      stress(i, 0) = static_cast<R>(result);
+    else
+      MatrixView<R, D>(stress).set(i, result);
   });
+  require_finite_result(stress, F, name);
 }
 
 }  // namespace detail
@@ -99,13 +109,9 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
 template <class T, int D, class Material, class R, Executor E = Serial>
 void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
                      const E& execute = {}) {
-  require_view(F, "deformation gradients");
-  require_size(stress, F.size(), "stresses");
-  require_apart(stress, "stresses", F, "deformation gradients");
   detail::evaluate_stress(
-      F, material, [](const auto& law, const Matrix<double, D>& gradient) { return cauchy_stress(law, gradient); },
-      [&](std::size_t i, const Matrix<double, D>& value) { stress.set(i, value); }, execute);
-  detail::require_finite_result(stress, F, "Cauchy stress");
+      F, material, stress, "Cauchy stress",
+      [](const auto& law, const Matrix<double, D>& gradient) { return cauchy_stress(law, gradient); }, execute);
 }
 
 /// Writes the first Piola-Kirchhoff stress P = dW/dF in Pa of every particle, force per reference area, \paper{7}.
@@ -113,14 +119,9 @@ void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const 
 template <class T, int D, class Material, class R, Executor E = Serial>
 void first_piola_kirchhoff_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
                                     const E& execute = {}) {
-  require_view(F, "deformation gradients");
-  require_size(stress, F.size(), "stresses");
-  require_apart(stress, "stresses", F, "deformation gradients");
   detail::evaluate_stress(
-      F, material,
-      [](const auto& law, const Matrix<double, D>& gradient) { return first_piola_kirchhoff(law, gradient); },
-      [&](std::size_t i, const Matrix<double, D>& value) { stress.set(i, value); }, execute);
-  detail::require_finite_result(stress, F, "first Piola-Kirchhoff stress");
+      F, material, stress, "first Piola-Kirchhoff stress",
+      [](const auto& law, const Matrix<double, D>& gradient) { return first_piola_kirchhoff(law, gradient); }, execute);
 }
 
 /// Writes the von Mises stress in Pa of every particle, see `von_mises_stress`. Parameters and errors are those of
@@ -128,13 +129,9 @@ void first_piola_kirchhoff_stresses(const MatrixView<T, D>& F, const Material& m
 template <class T, int D, class Material, class R, Executor E = Serial>
 void von_mises_stresses(const MatrixView<T, D>& F, const Material& material, const ScalarView<R>& stress,
                         const E& execute = {}) {
-  require_view(F, "deformation gradients");
-  require_size(stress, F.size(), "stresses");
-  require_apart(stress, "stresses", F, "deformation gradients");
   detail::evaluate_stress(
-      F, material, [](const auto& law, const Matrix<double, D>& gradient) { return von_mises_stress(law, gradient); },
-      [&](std::size_t i, double value) { stress[i] = static_cast<R>(value); }, execute);
-  detail::require_finite_result(stress, F, "von Mises stress");
+      F, material, stress, "von Mises stress",
+      [](const auto& law, const Matrix<double, D>& gradient) { return von_mises_stress(law, gradient); }, execute);
 }
 
 }  // namespace hmps::inline HMPS_ABI
