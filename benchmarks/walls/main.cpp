@@ -222,7 +222,7 @@ template <class Friction>
                                                                 .friction = coefficient,
                                                                 .incline = incline,
                                                                 .viscous = viscous,
-                                                                .settled = quick ? 0.15 : 0.3});
+                                                                .settled = 0.3});
       double& largest = degrees == 0 ? drift.along : raised ? drift.raised : drift.cut;
       largest = std::max(largest, 1e6 * std::abs(held.moved) / measured);
     }
