@@ -76,7 +76,8 @@ TEST(Viscous, RefusesImpossibleFluids) {
   // A number beside a view or a callable too.
   const std::vector<double> of_each(3, 1.0);
   EXPECT_THROW((void)hmps::viscous(hmps::scalars(of_each), -2e-3), hmps::InputError);
-  EXPECT_THROW((void)hmps::viscous(-1.0, [](const auto& at) { return static_cast<double>(at.index); }), hmps::InputError);
+  EXPECT_THROW((void)hmps::viscous(-1.0, [](const auto& at) { return static_cast<double>(at.index); }),
+               hmps::InputError);
 }
 
 }  // namespace
