@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "../../reference/temporary_folder.hpp"
 #include "common/files.hpp"
 
 namespace {
@@ -16,10 +18,7 @@ namespace fs = std::filesystem;
 
 class Program : public ::testing::Test {
  protected:
-  Program() : folder_(fs::path(::testing::TempDir()) / "hmps_report_study") { fs::remove_all(folder_); }
-  ~Program() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   int run(const std::vector<std::string>& arguments, const std::function<void(Study&)>& measure) {
     Study study("study", "A study.", "less");
     std::vector<std::string> all = arguments;
@@ -30,7 +29,7 @@ class Program : public ::testing::Test {
   }
 
  private:
-  fs::path folder_;
+  hmps_test::TemporaryFolder folder_;
 };
 
 TEST_F(Program, PublishesATableItsSectionAndItsPicture) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "../../reference/temporary_folder.hpp"
 #include "output/summary.hpp"
 #include "tradeoff/scenes.hpp"
 
@@ -14,14 +15,13 @@ namespace fs = std::filesystem;
 
 class Finer : public ::testing::Test {
  protected:
-  Finer() { fs::remove_all(folder_); }
-  ~Finer() override { fs::remove_all(folder_); }
-
   void add(const std::string& name, const swallowing::Summary& summary) {
-    fs::create_directories(folder_ / name);
-    write_summary(folder_ / name / "summary.json", summary);
+    fs::create_directories(folder_.path() / name);
+    write_summary(folder_.path() / name / "summary.json", summary);
   }
-  [[nodiscard]] tradeoff::Scene scene() const { return tradeoff::swallow({.out = folder_ / "out", .finer = folder_}); }
+  [[nodiscard]] tradeoff::Scene scene() const {
+    return tradeoff::swallow({.out = folder_.path() / "out", .finer = folder_.path()});
+  }
 
   static swallowing::Summary good() {
     swallowing::Summary summary;
@@ -34,7 +34,7 @@ class Finer : public ::testing::Test {
   }
 
  private:
-  fs::path folder_ = fs::path(::testing::TempDir()) / "tradeoff_finer";
+  hmps_test::TemporaryFolder folder_;
 };
 
 TEST_F(Finer, RunIsTakenAsTheAnswer) {

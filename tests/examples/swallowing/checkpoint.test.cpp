@@ -10,11 +10,14 @@
 #include <cstring>
 #include <random>
 
-#include "folder.hpp"
+#include "../../reference/message_of.hpp"
+#include "../../reference/temporary_folder.hpp"
 
 namespace {
 
 using hmps::InputError;
+using hmps_test::message_of;
+using hmps_test::TemporaryFolder;
 using swallowing::Checkpoint;
 
 Checkpoint example(std::uint64_t step, std::size_t size = 1000) {
@@ -37,8 +40,8 @@ Checkpoint example(std::uint64_t step, std::size_t size = 1000) {
 }
 
 TEST(Checkpoint, GivesBackEveryBit) {
-  TestFolder folder;
-  const auto path = folder.path / "checkpoint.bin";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "checkpoint.bin";
   EXPECT_FALSE(Checkpoint::load(path));
   const Checkpoint written = example(77);
   written.save(path);
@@ -59,8 +62,8 @@ TEST(Checkpoint, GivesBackEveryBit) {
 
 /// So that what was written before can be read.
 TEST(Checkpoint, KeepsItsBytes) {
-  TestFolder folder;
-  const auto path = folder.path / "checkpoint.bin";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "checkpoint.bin";
   Checkpoint c;
   c.settings = {{"case", "X1"}};
   c.time = 0.5;
@@ -82,8 +85,8 @@ TEST(Checkpoint, SetTwiceKeepsTheLast) {
 }
 
 TEST(Checkpoint, AnyDamageIsSeen) {
-  TestFolder folder;
-  const auto path = folder.path / "checkpoint.bin";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "checkpoint.bin";
   example(3, 40).save(path);
   const std::string whole = examples::read_file(path);
   for (std::size_t at = 0; at < whole.size(); at += 13) {
@@ -121,8 +124,8 @@ TEST(Checkpoint, WrongNamesSizesAndTypesAreRefused) {
 
 // A child writes checkpoints one after another and is killed in the midst: what is there is whole.
 TEST(Checkpoint, SurvivesAKillAtAnyMoment) {
-  TestFolder folder;
-  const auto path = folder.path / "checkpoint.bin";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "checkpoint.bin";
   for (int round = 0; round < 10; ++round) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);

@@ -9,43 +9,46 @@
 #include <filesystem>
 #include <string>
 
-#include "folder.hpp"
+#include "../../reference/message_of.hpp"
+#include "../../reference/temporary_folder.hpp"
 
 namespace {
 
 using examples::FolderLock;
+using hmps_test::message_of;
+using hmps_test::TemporaryFolder;
 
 TEST(FolderLock, KeepsASecondRunOut) {
-  TestFolder folder;
-  const auto refusal = [&] { return message_of<hmps::InputError>([&] { (void)FolderLock(folder.path); }); };
+  const TemporaryFolder folder;
+  const auto refusal = [&] { return message_of<hmps::InputError>([&] { (void)FolderLock(folder.path()); }); };
   {
-    const FolderLock lock(folder.path);
-    for (const std::string& part : {folder.path.string(), std::to_string(::getpid()), std::string("--out")})
+    const FolderLock lock(folder.path());
+    for (const std::string& part : {folder.path().string(), std::to_string(::getpid()), std::string("--out")})
       EXPECT_NE(refusal().find(part), std::string::npos) << refusal();
   }
   EXPECT_EQ(refusal(), "");
 }
 
 TEST(FolderLock, EndsWithItsProcessHoweverThatEnds) {
-  TestFolder folder;
+  const TemporaryFolder folder;
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    const FolderLock lock(folder.path);
-    examples::write_atomically(folder.path / "locked", "");
+    const FolderLock lock(folder.path());
+    examples::write_atomically(folder.path() / "locked", "");
     for (;;) ::pause();
   }
-  while (!std::filesystem::exists(folder.path / "locked")) ::usleep(500);
-  EXPECT_NE(message_of<hmps::InputError>([&] { (void)FolderLock(folder.path); }).find(std::to_string(child)),
+  while (!std::filesystem::exists(folder.path() / "locked")) ::usleep(500);
+  EXPECT_NE(message_of<hmps::InputError>([&] { (void)FolderLock(folder.path()); }).find(std::to_string(child)),
             std::string::npos);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  EXPECT_NO_THROW((void)FolderLock(folder.path, FolderLock::Taken::wait));
+  EXPECT_NO_THROW((void)FolderLock(folder.path(), FolderLock::Taken::wait));
 }
 
 TEST(FolderLock, NeedsAFolder) {
-  TestFolder folder;
-  EXPECT_THROW((void)FolderLock(folder.path / "none"), hmps::InputError);
+  const TemporaryFolder folder;
+  EXPECT_THROW((void)FolderLock(folder.path() / "none"), hmps::InputError);
 }
 
 }  // namespace

@@ -6,11 +6,14 @@
 #include <array>
 #include <cstdlib>
 
-#include "folder.hpp"
+#include "../../reference/message_of.hpp"
+#include "../../reference/temporary_folder.hpp"
 
 namespace {
 
 using examples::Field;
+using hmps_test::message_of;
+using hmps_test::TemporaryFolder;
 using swallowing::Frames;
 
 struct Cloud {
@@ -33,13 +36,13 @@ std::size_t files_in(const std::filesystem::path& folder) {
 }
 
 TEST(Frames, TheListNamesEveryFileAsItComes) {
-  TestFolder folder;
-  Frames frames(folder.path);
+  const TemporaryFolder folder;
+  Frames frames(folder.path());
   for (int i = 0; i < 4; ++i) {
     Cloud().write(frames, 0.1 * i);
-    const std::string list = examples::read_file(folder.path / "frames.pvd");
+    const std::string list = examples::read_file(folder.path() / "frames.pvd");
     for (const auto& [time, file] : frames.list()) {
-      EXPECT_TRUE(std::filesystem::exists(folder.path / file));
+      EXPECT_TRUE(std::filesystem::exists(folder.path() / file));
       EXPECT_NE(list.find("timestep=\"" + examples::to_text(time) + "\""), std::string::npos);
       EXPECT_NE(list.find(file), std::string::npos);
     }
@@ -48,56 +51,56 @@ TEST(Frames, TheListNamesEveryFileAsItComes) {
 }
 
 TEST(Frames, ResumedTheyAreTheSame) {
-  TestFolder whole, resumed;
-  std::filesystem::create_directories(resumed.path / "b");
+  const TemporaryFolder whole, resumed;
+  std::filesystem::create_directories(resumed.path() / "b");
   {
-    Frames frames(whole.path);
+    Frames frames(whole.path());
     for (int i = 0; i < 6; ++i) Cloud().write(frames, 0.1 * i);
   }
   {
-    Frames frames(resumed.path / "b");
+    Frames frames(resumed.path() / "b");
     for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
   }
   {
-    Frames frames(resumed.path / "b", 0.2, 3);
+    Frames frames(resumed.path() / "b", 0.2, 3);
     ASSERT_EQ(frames.list().size(), 3u);
     for (int i = 3; i < 6; ++i) Cloud().write(frames, 0.1 * i);
   }
-  EXPECT_EQ(examples::read_file(whole.path / "frames.pvd"), examples::read_file(resumed.path / "b/frames.pvd"));
-  EXPECT_EQ(files_in(whole.path / "frames"), files_in(resumed.path / "b/frames"));
+  EXPECT_EQ(examples::read_file(whole.path() / "frames.pvd"), examples::read_file(resumed.path() / "b/frames.pvd"));
+  EXPECT_EQ(files_in(whole.path() / "frames"), files_in(resumed.path() / "b/frames"));
 }
 
 TEST(Frames, ANewRunRemovesTheFramesOfTheOld) {
-  TestFolder folder;
+  const TemporaryFolder folder;
   {
-    Frames frames(folder.path);
+    Frames frames(folder.path());
     for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
   }
-  Frames frames(folder.path);
+  Frames frames(folder.path());
   Cloud().write(frames, 0);
-  EXPECT_EQ(files_in(folder.path / "frames"), 1u);
+  EXPECT_EQ(files_in(folder.path() / "frames"), 1u);
 }
 
 TEST(Frames, AreNotResumedWhereSomeAreMissing) {
-  TestFolder folder;
+  const TemporaryFolder folder;
   {
-    Frames frames(folder.path);
+    Frames frames(folder.path());
     for (int i = 0; i < 5; ++i) Cloud().write(frames, 0.1 * i);
   }
-  const auto refusal = [&] { return message_of<hmps::InputError>([&] { (void)Frames(folder.path, 0.2, 3); }); };
-  const auto second = folder.path / "frames/frame_00001.vtu", aside = folder.path / "aside.vtu";
+  const auto refusal = [&] { return message_of<hmps::InputError>([&] { (void)Frames(folder.path(), 0.2, 3); }); };
+  const auto second = folder.path() / "frames/frame_00001.vtu", aside = folder.path() / "aside.vtu";
   std::filesystem::rename(second, aside);
   EXPECT_NE(refusal().find("frame_00001.vtu"), std::string::npos) << refusal();
-  EXPECT_EQ(files_in(folder.path / "frames"), 4u) << "frames were removed all the same";
+  EXPECT_EQ(files_in(folder.path() / "frames"), 4u) << "frames were removed all the same";
   std::filesystem::rename(aside, second);
   EXPECT_EQ(refusal(), "");
-  std::filesystem::remove(folder.path / "frames.pvd");
+  std::filesystem::remove(folder.path() / "frames.pvd");
   EXPECT_NE(refusal().find("frames.pvd lists 0 of the 3"), std::string::npos) << refusal();
 }
 
 TEST(Frames, AFieldOfAnotherSizeIsRefused) {
-  TestFolder folder;
-  Frames frames(folder.path);
+  const TemporaryFolder folder;
+  Frames frames(folder.path());
   const Cloud cloud;
   const std::vector<Field> fields{examples::whole_numbers("organ", std::vector<int>{1, 2})};
   EXPECT_THROW(frames.add(0, examples::numbers("position", hmps::vectors(cloud.x)), fields), hmps::InputError);
@@ -108,12 +111,12 @@ TEST(Frames, VtkReadsThemBack) {
   const std::string python = "/usr/bin/python3 ";
   if (std::system((python + "-c 'import vtk' 2>/dev/null").c_str()) != 0)
     GTEST_SKIP() << "the Python package of VTK is not here: apt-get install --no-install-recommends python3-vtk9";
-  TestFolder folder;
-  Frames frames(folder.path);
+  const TemporaryFolder folder;
+  Frames frames(folder.path());
   Cloud().write(frames, 0);
   Cloud().write(frames, 0.125);
   const auto script = std::filesystem::path(__FILE__).parent_path() / "read_frames.py";
-  EXPECT_EQ(std::system((python + script.string() + " " + folder.path.string()).c_str()), 0);
+  EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
 }
 
 }  // namespace

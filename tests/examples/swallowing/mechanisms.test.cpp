@@ -6,10 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "folder.hpp"
+#include "../../reference/temporary_folder.hpp"
 
 namespace {
 
+using hmps_test::TemporaryFolder;
 using swallowing::Summary;
 
 /// Writes a case with a moment by the tongue that grows until 1.65 s, one by the wall that turns round, and an area
@@ -32,12 +33,12 @@ void write_case(const std::filesystem::path& folder, const swallowing::RunSettin
 }
 
 TEST(Mechanisms, AreReadFromTheContacts) {
-  TestFolder folder;
+  const TemporaryFolder folder;
   const swallowing::RunSettings settings{{"spacing", "0.0024"}};
-  write_case(folder.path / "X1", settings);
-  const auto results = swallowing::read_results(folder.path, settings);
-  swallowing::write_mechanisms(folder.path / "mechanisms.md", results);
-  const std::string text = examples::read_file(folder.path / "mechanisms.md");
+  write_case(folder.path() / "X1", settings);
+  const auto results = swallowing::read_results(folder.path(), settings);
+  swallowing::write_mechanisms(folder.path() / "mechanisms.md", results);
+  const std::string text = examples::read_file(folder.path() / "mechanisms.md");
   for (const char* line :
        {"| folds below the horizontal | 1.650 s | – | – | – |",
         "| α, tongue: largest moment that turns the tip down, mN m | 1.65 at 1.650 s |",  // not after the fold

@@ -6,11 +6,12 @@
 
 #include <cmath>
 
-#include "folder.hpp"
+#include "../../reference/temporary_folder.hpp"
 #include "output/comparison.hpp"
 
 namespace {
 
+using hmps_test::TemporaryFolder;
 using swallowing::Role;
 using swallowing::Snapshot;
 using swallowing::Snapshots;
@@ -61,8 +62,8 @@ constexpr auto yellow = [](int r, int g, int b) { return r > 200 && g > 150 && b
 constexpr auto dark = [](int r, int g, int b) { return r < 70 && g < 70 && b < 80; };
 
 TEST(Pictures, ASnapshotComesBackAsItWas) {
-  TestFolder folder;
-  const Snapshots snapshots(folder.path / "snapshots");
+  const TemporaryFolder folder;
+  const Snapshots snapshots(folder.path() / "snapshots");
   EXPECT_FALSE(snapshots.load(4));
   const Snapshot s = block(1.667);
   snapshots.add(4, s);
@@ -80,24 +81,24 @@ TEST(Pictures, ASnapshotComesBackAsItWas) {
 }
 
 TEST(Pictures, AResumedRunKeepsWhatLiesBeforeTheCheckpoint) {
-  TestFolder folder;
+  const TemporaryFolder folder;
   {
-    const Snapshots snapshots(folder.path);
+    const Snapshots snapshots(folder.path());
     for (std::size_t panel = 0; panel < 5; ++panel) snapshots.add(panel, block(swallowing::picture_times[panel]));
   }
   {
-    const Snapshots snapshots(folder.path, 1.4);
+    const Snapshots snapshots(folder.path(), 1.4);
     EXPECT_TRUE(snapshots.load(0) && snapshots.load(1) && snapshots.load(2));
     EXPECT_FALSE(snapshots.load(3) || snapshots.load(4));
   }
-  const Snapshots anew(folder.path);
+  const Snapshots anew(folder.path());
   EXPECT_FALSE(anew.load(0));
 }
 
 TEST(Pictures, TheSheetShowsOrgansAndControlRegions) {
-  TestFolder folder;
-  const Snapshots snapshots(folder.path / "snapshots");
-  const auto path = folder.path / "sheet.png";
+  const TemporaryFolder folder;
+  const Snapshots snapshots(folder.path() / "snapshots");
+  const auto path = folder.path() / "sheet.png";
   swallowing::draw_sheet(path, snapshots, "nothing yet");
   EXPECT_LT(Png(path).share(red), 1e-3);
 
@@ -113,18 +114,18 @@ TEST(Pictures, TheSheetShowsOrgansAndControlRegions) {
 }
 
 TEST(Pictures, OnlyTheRightHalfIsDrawn) {
-  TestFolder folder;
-  const Snapshots snapshots(folder.path / "snapshots");
+  const TemporaryFolder folder;
+  const Snapshots snapshots(folder.path() / "snapshots");
   Snapshot s = block(0);
   for (auto& p : s.positions) p[1] = -std::abs(p[1]);
   snapshots.add(0, s);
-  swallowing::draw_sheet(folder.path / "sheet.png", snapshots, "left");
-  EXPECT_LT(Png(folder.path / "sheet.png").share(yellow), 1e-3);
+  swallowing::draw_sheet(folder.path() / "sheet.png", snapshots, "left");
+  EXPECT_LT(Png(folder.path() / "sheet.png").share(yellow), 1e-3);
 }
 
 TEST(Pictures, TableAndFoldStandBesideThePaper) {
-  TestFolder folder;
-  const auto x1 = folder.path / "X1";
+  const TemporaryFolder folder;
+  const auto x1 = folder.path() / "X1";
   std::filesystem::create_directories(x1);
   {
     swallowing::Series series(x1 / "series.csv");
@@ -144,23 +145,24 @@ TEST(Pictures, TableAndFoldStandBesideThePaper) {
   summary.settings = settings;
   swallowing::write_summary(x1 / "summary.json", summary);
   summary.settings = {{"spacing", "0.0018"}, {"scalar", "float"}};
-  std::filesystem::create_directories(folder.path / "Y1");
-  swallowing::write_summary(folder.path / "Y1/summary.json", summary);
+  std::filesystem::create_directories(folder.path() / "Y1");
+  swallowing::write_summary(folder.path() / "Y1/summary.json", summary);
 
-  const auto results = swallowing::read_results(folder.path, settings);
+  const auto results = swallowing::read_results(folder.path(), settings);
   ASSERT_TRUE(results[0].summary);
   EXPECT_EQ(results[0].samples.size(), 205u);
   EXPECT_FALSE(results[2].summary) << "a case of other settings stands in the table";
   EXPECT_EQ(results[2].left_out, "spacing 0.0018 in place of 0.0024");
   EXPECT_FALSE(results[3].summary);
-  swallowing::write_table2(folder.path / "table2.md", results);
-  swallowing::draw_fold(folder.path / "fold.png", results);
-  const std::string table = examples::read_file(folder.path / "table2.md");
+  swallowing::write_table2(folder.path() / "table2.md", results);
+  swallowing::draw_fold(folder.path() / "fold.png", results);
+  const std::string table = examples::read_file(folder.path() / "table2.md");
   EXPECT_NE(table.find("| X1 | X | 0.1 | 1.65 s | 1.662 s | +12 ms |"), std::string::npos) << table;
   EXPECT_NE(table.find("| Y1 | Y | 0.1 | 1.70 s | other settings |"), std::string::npos) << table;
   EXPECT_NE(table.find("Case Y1 was run with other settings: spacing 0.0018"), std::string::npos) << table;
   EXPECT_NE(table.find("| Y3 | Y | 0.3 | did not fold | not run |"), std::string::npos) << table;
-  EXPECT_GT(Png(folder.path / "fold.png").share([](int r, int g, int b) { return r > 170 && g < 60 && b < 70; }), 1e-3);
+  EXPECT_GT(Png(folder.path() / "fold.png").share([](int r, int g, int b) { return r > 170 && g < 60 && b < 70; }),
+            1e-3);
 }
 
 }  // namespace

@@ -5,10 +5,13 @@
 
 #include <cmath>
 
-#include "folder.hpp"
+#include "../../reference/message_of.hpp"
+#include "../../reference/temporary_folder.hpp"
 
 namespace {
 
+using hmps_test::message_of;
+using hmps_test::TemporaryFolder;
 using swallowing::Sample;
 using swallowing::Series;
 using swallowing::TableMark;
@@ -22,8 +25,8 @@ Sample sample(int i) {
 }
 
 TEST(Series, CanBeReadWhileItGrowsToTheLastBit) {
-  TestFolder folder;
-  const auto path = folder.path / "series.csv";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
   Series series(path);
   EXPECT_TRUE(swallowing::read_series(path).empty());
   for (int i = 0; i < 100; ++i) {
@@ -46,8 +49,8 @@ TableMark thirty_samples(const std::filesystem::path& path) {
 }
 
 TEST(Series, ResumedAtACheckpointItIsTheSameFile) {
-  TestFolder folder;
-  const auto whole = folder.path / "whole.csv", resumed = folder.path / "resumed.csv";
+  const TemporaryFolder folder;
+  const auto whole = folder.path() / "whole.csv", resumed = folder.path() / "resumed.csv";
   {
     Series series(whole);
     for (int i = 0; i < 50; ++i) series.add(sample(i));
@@ -70,8 +73,8 @@ TEST(Series, ResumedAtACheckpointItIsTheSameFile) {
 }
 
 TEST(Series, IsNotResumedWhereItHasLostWhatLiesBeforeTheCheckpoint) {
-  TestFolder folder;
-  const auto path = folder.path / "series.csv";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
   const auto refusal = [&](const TableMark& mark) {
     return message_of<hmps::InputError>([&] { (void)Series(path, mark); });
   };
@@ -95,8 +98,8 @@ TEST(Series, IsNotResumedWhereItHasLostWhatLiesBeforeTheCheckpoint) {
 }
 
 TEST(Series, WithoutResumeItBeginsAnew) {
-  TestFolder folder;
-  const auto path = folder.path / "series.csv";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
   { Series(path).add(sample(1)); }
   { Series(path).add(sample(2)); }
   ASSERT_EQ(swallowing::read_series(path).size(), 1u);
@@ -104,8 +107,8 @@ TEST(Series, WithoutResumeItBeginsAnew) {
 }
 
 TEST(Series, KeepsWhatADivergingRunLeft) {
-  TestFolder folder;
-  const auto path = folder.path / "series.csv";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
   Sample last = sample(3);
   last.kinetic_energy = std::numeric_limits<double>::infinity();
   last.smallest_j = std::nan("");
@@ -117,8 +120,8 @@ TEST(Series, KeepsWhatADivergingRunLeft) {
 }
 
 TEST(Series, AMalformedLineIsRefused) {
-  TestFolder folder;
-  const auto path = folder.path / "series.csv";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
   { Series(path).add(sample(1)); }
   const std::string whole = examples::read_file(path);
   const std::size_t line = whole.find('\n') + 1;
@@ -129,9 +132,9 @@ TEST(Series, AMalformedLineIsRefused) {
 }
 
 TEST(Series, OtherFilesAreRefused) {
-  TestFolder folder;
-  examples::write_atomically(folder.path / "other.csv", "t,x\n1,2\n");
-  EXPECT_THROW((void)swallowing::read_series(folder.path / "other.csv"), hmps::InputError);
+  const TemporaryFolder folder;
+  examples::write_atomically(folder.path() / "other.csv", "t,x\n1,2\n");
+  EXPECT_THROW((void)swallowing::read_series(folder.path() / "other.csv"), hmps::InputError);
 }
 
 }  // namespace

@@ -7,17 +7,18 @@
 #include <hmps/core/error.hpp>
 #include <nlohmann/json.hpp>
 
+#include "../../reference/temporary_folder.hpp"
 #include "../common/files.hpp"
-#include "folder.hpp"
 
 namespace {
 
+using hmps_test::TemporaryFolder;
 using swallowing::DetF;
 using swallowing::Summary;
 
 TEST(Summary, HoldsTheFieldsThatOthersRead) {
-  TestFolder folder;
-  const auto path = folder.path / "summary.json";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "summary.json";
   Summary s;
   s.case_name = "X1";
   s.spacing = 2.4e-3;
@@ -71,12 +72,12 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
 }
 
 TEST(Summary, WhatIsNotFiniteBecomesNull) {
-  TestFolder folder;
+  const TemporaryFolder folder;
   Summary s;
   s.tip_angle_min = std::nan("");
   s.failure = "particle 3 of the tongue is inverted";
-  swallowing::write_summary(folder.path / "s.json", s);
-  const auto read = swallowing::read_summary(folder.path / "s.json");
+  swallowing::write_summary(folder.path() / "s.json", s);
+  const auto read = swallowing::read_summary(folder.path() / "s.json");
   ASSERT_TRUE(read);
   EXPECT_TRUE(std::isnan(read->tip_angle_min));
   EXPECT_FALSE(read->det_f);
@@ -84,12 +85,12 @@ TEST(Summary, WhatIsNotFiniteBecomesNull) {
 }
 
 TEST(Summary, MissingIsNothingAndForeignIsAnError) {
-  TestFolder folder;
-  EXPECT_FALSE(swallowing::read_summary(folder.path / "none.json"));
-  examples::write_atomically(folder.path / "foreign.json", "{\"a\": 1}");
-  EXPECT_THROW((void)swallowing::read_summary(folder.path / "foreign.json"), hmps::InputError);
-  examples::write_atomically(folder.path / "torn.json", "{\"case\": ");
-  EXPECT_THROW((void)swallowing::read_summary(folder.path / "torn.json"), hmps::InputError);
+  const TemporaryFolder folder;
+  EXPECT_FALSE(swallowing::read_summary(folder.path() / "none.json"));
+  examples::write_atomically(folder.path() / "foreign.json", "{\"a\": 1}");
+  EXPECT_THROW((void)swallowing::read_summary(folder.path() / "foreign.json"), hmps::InputError);
+  examples::write_atomically(folder.path() / "torn.json", "{\"case\": ");
+  EXPECT_THROW((void)swallowing::read_summary(folder.path() / "torn.json"), hmps::InputError);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 #include <thread>
+
+#include "../../reference/temporary_folder.hpp"
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/stat.h>
 #endif
@@ -17,7 +19,8 @@ namespace {
 using namespace hmps::detail;
 
 TEST(TextFile, ReadsAllBytesAndNamesWhatItCannotRead) {
-  const auto path = (std::filesystem::temp_directory_path() / "hmps_text_file_test.txt").string();
+  const hmps_test::TemporaryFolder folder;
+  const auto path = (folder.path() / "a.txt").string();
   std::string bytes(3'000'000, 'x');
   bytes[1'500'000] = '\0';
   std::ofstream(path, std::ios::binary) << bytes;
@@ -26,7 +29,7 @@ TEST(TextFile, ReadsAllBytesAndNamesWhatItCannotRead) {
   EXPECT_EQ(read_text(path), "");
   std::filesystem::remove(path);
   EXPECT_THROW((void)read_text(path), hmps::InputError);
-  EXPECT_THROW((void)read_text(std::filesystem::temp_directory_path().string()), hmps::InputError);
+  EXPECT_THROW((void)read_text(folder.path().string()), hmps::InputError);
 }
 
 TEST(TextFile, EndsWithWhatDoesNotEnd) {
@@ -43,14 +46,13 @@ TEST(TextFile, EndsWithWhatDoesNotEnd) {
 
 #if defined(__unix__) || defined(__APPLE__)
 TEST(TextFile, ReadsPipes) {
-  const auto path = (std::filesystem::temp_directory_path() / "hmps_text_file_pipe").string();
-  std::filesystem::remove(path);
+  const hmps_test::TemporaryFolder folder;
+  const auto path = (folder.path() / "pipe").string();
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   const std::string bytes(200'000, 'y');
   std::thread writer([&] { std::ofstream(path, std::ios::binary) << bytes; });
   const std::string text = read_text(path);
   writer.join();
-  std::filesystem::remove(path);
   EXPECT_EQ(text, bytes);
 }
 #endif

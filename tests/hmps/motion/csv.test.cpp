@@ -8,6 +8,7 @@
 #include <string>
 
 #include "../../reference/message_of.hpp"
+#include "../../reference/temporary_folder.hpp"
 
 namespace {
 
@@ -62,10 +63,10 @@ TEST(Csv, QuotesNoRawBytesAndNotEveryColumn) {
 }
 
 TEST(Csv, ReadsFiles) {
-  const auto path = (std::filesystem::temp_directory_path() / "hmps_csv_test.csv").string();
+  const hmps_test::TemporaryFolder folder;
+  const auto path = (folder.path() / "a.csv").string();
   std::ofstream(path) << "t,x\n0,1\n2,3\n";
   const auto table = hmps::read_csv(path);
-  std::filesystem::remove(path);
   EXPECT_EQ(table.source, path);
   EXPECT_EQ(table.rows(), 2u);
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "folder.hpp"
+#include "../../reference/temporary_folder.hpp"
 #include "hmps/core/text_file.hpp"
 
 namespace {

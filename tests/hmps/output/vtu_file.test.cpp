@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "folder.hpp"
+#include "../../reference/temporary_folder.hpp"
 #include "hmps/core/text_file.hpp"
 
 namespace {

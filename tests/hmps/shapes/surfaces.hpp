@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "../../reference/temporary_folder.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
@@ -110,22 +111,17 @@ template <class S>
   return mesh;
 }
 
-/// A file in the system's folder for temporary files, removed at the end of its life.
+/// A file in a temporary folder of its own, removed at the end of its life.
 class TemporaryFile {
  public:
   TemporaryFile(std::string_view ending, std::string_view bytes) {
-    static int count = 0;
-    const auto name =
-        "hmps_test_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + "_" + std::to_string(count++);
-    path_ = (std::filesystem::temp_directory_path() / name).string() + std::string(ending);
+    path_ = (folder_.path() / "file").string() + std::string(ending);
     std::ofstream(path_, std::ios::binary) << bytes;
   }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { std::filesystem::remove(path_); }
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
+  TemporaryFolder folder_;
   std::string path_;
 };
 
