@@ -12,8 +12,23 @@
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/registers.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
+
+/// Prefetches the entries of `view` for the particles of `block`; does nothing beyond the last block. The processor
+/// does this itself only where particles are consecutive: without it, a step of a million shuffled particles takes a
+/// quarter longer.
+template <class K, int D, class T, int N>
+HMPS_INLINE void prefetch_particles(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view) {
+  constexpr std::size_t width = Blocks<K, D>::width;
+  if (block >= blocks.block_count()) return;
+  for (std::size_t l = 0; l < width; ++l) {
+    const Index i = blocks.particle(block * width + l);
+    if (i != Blocks<K, D>::none)
+      for (int c = 0; c < N; ++c) prefetch(&view(i, c));
+  }
+}
 
 /// Copies `view` of the particles of `block` into `slots`, converted to the scalar type of the sweeps. `value(number,
 /// slot, component)` transforms each number on the way.
@@ -23,6 +38,8 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
   const bool consecutive = blocks.consecutive(block);
+  // A block is copied within less than the delay of the memory.
+  if (!consecutive) prefetch_particles(blocks, block + 2, view);
   for (int c = 0; c < D; ++c) {
     const auto component = static_cast<std::size_t>(c);
     if (consecutive) {
@@ -82,6 +99,8 @@ HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const Vi
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
   const bool consecutive = blocks.consecutive(block) && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T));
+  // The sums of the next block take longer than the memory does.
+  if (!blocks.consecutive(block)) prefetch_particles(blocks, block + 1, view);
   for (int c = 0; c < N; ++c) {
     const Lanes<K> numbers = lanes(c);
     if (consecutive) {
