@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/page.hpp"
 
-#include "hmps/core/error.hpp"
+#include "common/error.hpp"
 
 namespace report {
 
@@ -10,8 +10,8 @@ std::string with_section(std::string page, const std::string& name, const std::s
   const std::string marked = begin + section + end;
   const auto from = page.find(begin), to = page.find(end);
   if (from == std::string::npos) return page + '\n' + marked;
-  hmps::require(to != std::string::npos && to > from, "the page has the mark ", begin.substr(0, begin.size() - 1),
-                " but not its end; remove the mark or restore the end");
+  examples::require(to != std::string::npos && to > from, "the page has the mark ", begin.substr(0, begin.size() - 1),
+                    " but not its end; remove the mark or restore the end");
   return page.replace(from, to + end.size() - from, marked);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/csv_writer.hpp"
+#include "common/error.hpp"
 
 namespace report {
 namespace {
@@ -73,8 +74,8 @@ std::vector<Cells> read_csv(std::string_view text) {
 double number(const std::string& cell) {
   double value = 0;
   const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  hmps::require(problem == std::errc() && end == cell.data() + cell.size(), "a table has '", cell,
-                "' where a number should stand; run the study again");
+  examples::require(problem == std::errc() && end == cell.data() + cell.size(), "a table has '", cell,
+                    "' where a number should stand; run the study again");
   return value;
 }
 

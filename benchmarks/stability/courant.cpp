@@ -11,6 +11,15 @@
 namespace stability {
 namespace {
 
+/// Pseudo-random number in (-1, 1), a function of `number` alone (splitmix64).
+double noise_of(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15u;
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
+  number ^= number >> 31;
+  return (static_cast<double>(number >> 11) + 0.5) * 0x1.0p-52 - 1.0;
+}
+
 /// Whether noise of velocity grows by changing its sign at each step. What grows without is physical, such as buckling.
 /// In contact all must stay so small that no face opens, and the first motion to have grown decides: there others
 /// grow too.
@@ -31,7 +40,7 @@ bool alternates(Sheet<S>& scene, double dt) {
   const auto dead = body.load;  // holds what the force is at the start
   for (std::size_t i = 0; i < body.size() && scene.moves(i); ++i)
     for (int c = 0; c < 3; ++c)
-      body.velocity[i][c] = static_cast<S>(noise * hmps::detail::noise(3 * i + static_cast<std::uint64_t>(c)));
+      body.velocity[i][c] = static_cast<S>(noise * noise_of(3 * i + static_cast<std::uint64_t>(c)));
   auto before = body.velocity;
   bool found = false;
   for (int step = 1; step <= steps && !found; ++step) {

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/error.hpp"
 #include "scenes/timoshenko.hpp"
 #include "tradeoff/meter.hpp"
 #include "tradeoff/scenes.hpp"
@@ -87,7 +88,8 @@ class Vibration {
       if (back || steps % between == 0) {
         drifted = std::max(drifted, std::abs(energy() / start - 1));
         if (!(drifted < 10) || time > 3 / expected_)
-          throw hmps::StateError(hmps::message("the beam broke down or does not swing back at ", rounded(time), " s"));
+          throw hmps::StateError(
+              examples::message("the beam broke down or does not swing back at ", rounded(time), " s"));
       }
       if (back) return meter_.outcome({0.5 / ((steps - now / (now - before)) * dt_), drifted});
       before = now;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "scenes/pressed_block.hpp"
 #include "tradeoff/meter.hpp"
 #include "tradeoff/scenes.hpp"
@@ -96,7 +97,7 @@ Slide slide(const Settings& settings, double angle, Meter& meter) {
     meter.stop();
     meter.count(block.position.size());
     if (!(std::abs(block.sinking) < 10))
-      throw hmps::StateError(hmps::message("the block broke down at ", rounded(t), " s"));
+      throw hmps::StateError(examples::message("the block broke down at ", rounded(t), " s"));
     if (step % cadence != 0 || t < settled) continue;
     const auto on_wall = block.on_wall();
     normal -= on_wall[2];
@@ -134,7 +135,8 @@ Outcome press(const Settings& settings) {
     return corrected ? slides<double, double, PaperMetaball, CorrectedFriction>(settings)
                      : slides<double, double, PaperMetaball, PaperFriction>(settings);
   }
-  hmps::require(smooth && corrected, "the scalar ", scalar, " is compiled for the smooth kernel and the corrected law");
+  examples::require(smooth && corrected, "the scalar ", scalar,
+                    " is compiled for the smooth kernel and the corrected law");
   return scalar == "float" ? slides<float, float, SmoothMetaball, CorrectedFriction>(settings)
                            : slides<float, double, SmoothMetaball, CorrectedFriction>(settings);
 }

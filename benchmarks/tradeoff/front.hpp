@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hmps/core/error.hpp"
+#include "common/error.hpp"
 
 namespace tradeoff {
 
@@ -28,9 +28,10 @@ struct Point {
 [[nodiscard]] inline std::vector<std::size_t> pareto_front(std::span<const Point> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto fits = [](double value) { return std::isfinite(value) && value >= 0; };
-    hmps::require(fits(points[i].cost) && fits(points[i].error), "tradeoff: point ", i, " has the cost ",
-                  points[i].cost, " and the error ", points[i].error,
-                  "; both must be finite and not negative: leave runs that failed out, and take magnitudes of errors");
+    examples::require(
+        fits(points[i].cost) && fits(points[i].error), "tradeoff: point ", i, " has the cost ", points[i].cost,
+        " and the error ", points[i].error,
+        "; both must be finite and not negative: leave runs that failed out, and take magnitudes of errors");
   }
   std::vector<std::size_t> order(points.size()), front;
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "common/files.hpp"
 #include "report/page.hpp"
 #include "report/study.hpp"
@@ -76,9 +77,9 @@ int main(int argc, char** argv) {
       ->take_last();
   return study.run(argc, argv, [&] {
     for (const std::string& name : chosen)
-      hmps::require(!tables || fs::exists(study.out / (name + ".csv")), "there is no table ",
-                    (study.out / (name + ".csv")).string(),
-                    "; sweep the scene without --tables, or name others by --scene");
+      examples::require(!tables || fs::exists(study.out / (name + ".csv")), "there is no table ",
+                        (study.out / (name + ".csv")).string(),
+                        "; sweep the scene without --tables, or name others by --scene");
     // What stands in the page of scenes that are not swept stays.
     std::string page = report::with_opening(study.page(), preface());
     if (page.find("<!-- begin agreement -->") == std::string::npos) page = report::with_section(page, "agreement", "");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/error.hpp"
 #include "tradeoff/settings.hpp"
 
 namespace tradeoff {
@@ -77,7 +78,7 @@ struct Scene {
   [[nodiscard]] const Parameter& parameter(const std::string& wanted) const {
     for (const Parameter& p : parameters)
       if (p.name == wanted) return p;
-    throw hmps::InputError(hmps::message("tradeoff: the scene ", name, " has no parameter ", wanted));
+    throw hmps::InputError(examples::message("tradeoff: the scene ", name, " has no parameter ", wanted));
   }
   /// Whether the settings keep to the problem: only choices differ from the standard.
   [[nodiscard]] bool same_problem(const Settings& settings) const {

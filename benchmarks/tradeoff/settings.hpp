@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "hmps/core/error.hpp"
+#include "common/error.hpp"
 #include "report/text.hpp"
 
 namespace tradeoff {
@@ -28,8 +28,8 @@ class Settings {
   /// Throws `InputError` if there is no such parameter.
   [[nodiscard]] const Value& at(std::string_view name) const {
     const auto found = std::find_if(values_.begin(), values_.end(), [&](const auto& v) { return v.first == name; });
-    hmps::require(found != values_.end(), "tradeoff: no parameter is called ", name,
-                  "; name it among the scene's parameters");
+    examples::require(found != values_.end(), "tradeoff: no parameter is called ", name,
+                      "; name it among the scene's parameters");
     return found->second;
   }
   /// Throw `InputError` if there is no such parameter or it is of the other kind.
@@ -54,8 +54,8 @@ class Settings {
   template <class T>
   [[nodiscard]] const T& as(std::string_view name, const char* kind) const {
     const T* value = std::get_if<T>(&at(name));
-    hmps::require(value != nullptr, "tradeoff: the parameter ", name, " is not ", kind,
-                  "; look at its values in the scene");
+    examples::require(value != nullptr, "tradeoff: the parameter ", name, " is not ", kind,
+                      "; look at its values in the scene");
     return *value;
   }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/error.hpp"
 #include "tradeoff/front.hpp"
 #include "tradeoff/scene.hpp"
 
@@ -83,9 +84,9 @@ std::vector<const Trial*> front(const Scene&, Sweep&&, std::size_t, const Cost&)
     if (std::find(all.begin(), all.end(), settings) == all.end()) all.push_back(settings);
   };
   for (const Parameter& p : scene.parameters) {
-    hmps::require(std::find(p.values.begin(), p.values.end(), p.standard) != p.values.end(),
-                  "tradeoff: the standard value of ", p.name, " in the scene ", scene.name,
-                  " is not among its values; add it");
+    examples::require(std::find(p.values.begin(), p.values.end(), p.standard) != p.values.end(),
+                      "tradeoff: the standard value of ", p.name, " in the scene ", scene.name,
+                      " is not among its values; add it");
     for (const Value& value : p.values) add(scene.standard().with(p.name, value));
   }
   for (const Settings& settings : grid) add(settings);
@@ -95,12 +96,12 @@ std::vector<const Trial*> front(const Scene&, Sweep&&, std::size_t, const Cost&)
 namespace detail {
 
 inline void check(const Scene& scene, const Settings& settings, const std::vector<double>& values, const char* what) {
-  hmps::require(values.size() == scene.quantities.size(), "tradeoff: the scene ", scene.name, " gave ", values.size(),
-                ' ', what, " for ", scene.quantities.size(), " quantities; give one for each");
+  examples::require(values.size() == scene.quantities.size(), "tradeoff: the scene ", scene.name, " gave ",
+                    values.size(), ' ', what, " for ", scene.quantities.size(), " quantities; give one for each");
   for (std::size_t q = 0; q < values.size(); ++q)
-    hmps::require(std::isfinite(values[q]), "tradeoff: ", what, ": ", scene.quantities[q].name, " of the scene ",
-                  scene.name, " is ", values[q], " at ", scene.difference(settings, scene.standard()),
-                  "; throw hmps::StateError where a run breaks down");
+    examples::require(std::isfinite(values[q]), "tradeoff: ", what, ": ", scene.quantities[q].name, " of the scene ",
+                      scene.name, " is ", values[q], " at ", scene.difference(settings, scene.standard()),
+                      "; throw hmps::StateError where a run breaks down");
 }
 
 [[nodiscard]] inline double median(std::vector<double> values) {
@@ -126,8 +127,8 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
   detail::check(scene, settings, run.exact, "right answers");
   for (std::size_t q = 0; q < run.exact.size(); ++q) {
     const double scale = scene.quantities[q].scale > 0 ? scene.quantities[q].scale : std::abs(run.exact[q]);
-    hmps::require(scale > 0, "tradeoff: ", scene.quantities[q].name, " of the scene ", scene.name,
-                  " should be 0, of which there are no per cent; give the quantity a scale");
+    examples::require(scale > 0, "tradeoff: ", scene.quantities[q].name, " of the scene ", scene.name,
+                      " should be 0, of which there are no per cent; give the quantity a scale");
     run.errors.push_back(100 * (run.outcome.values[q] - run.exact[q]) / scale);
   }
   return run;
@@ -139,8 +140,8 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
 /// Throws `InputError` if the standard fails or a run repeated gives other values.
 [[nodiscard]] inline Sweep sweep(const Scene& scene, const std::function<void(const std::string&)>& log) {
   Sweep result;
-  hmps::require(scene.known != nullptr || scene.reference.has_value(), "tradeoff: the scene ", scene.name,
-                " has neither known answers nor a reference; give one");
+  examples::require(scene.known != nullptr || scene.reference.has_value(), "tradeoff: the scene ", scene.name,
+                    " has neither known answers nor a reference; give one");
   std::vector<double> reference;
   if (!scene.known) {
     reference = scene.run(*scene.reference).values;
@@ -150,8 +151,8 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
   for (const Settings& settings : all) {
     Trial run = run_once(scene, settings, reference);
     const bool first = result.runs.empty();
-    hmps::require(!first || !run.failed(), "tradeoff: the standard of the scene ", scene.name,
-                  " failed: ", run.failure);
+    examples::require(!first || !run.failed(), "tradeoff: the standard of the scene ", scene.name,
+                      " failed: ", run.failure);
     if (!first && !run.failed()) {
       std::vector<double> ratios;
       const double standard_seconds = result.runs.front().outcome.seconds;
@@ -161,9 +162,9 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
         const double standard = scene.run(scene.standard()).seconds;
         // The first repetition pairs the run that is there already, unless it was so short that it counts for nothing.
         const Outcome again = k == 0 && run.outcome.seconds > 0.5 ? run.outcome : scene.run(settings);
-        hmps::require(again.values == run.outcome.values, "tradeoff: the scene ", scene.name, " gave other values at ",
-                      scene.difference(settings, scene.standard()),
-                      " when it was run again; a run must depend on its settings only");
+        examples::require(again.values == run.outcome.values, "tradeoff: the scene ", scene.name,
+                          " gave other values at ", scene.difference(settings, scene.standard()),
+                          " when it was run again; a run must depend on its settings only");
         ratios.push_back(again.seconds / standard);
         spent += standard + again.seconds;
       }

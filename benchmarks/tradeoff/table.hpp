@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "common/error.hpp"
 #include "report/table.hpp"
 #include "tradeoff/sweep.hpp"
 
@@ -55,8 +56,8 @@ namespace tradeoff {
   Sweep sweep;
   for (std::size_t n = 1; n < lines.size(); ++n) {
     const auto& line = lines[n];
-    hmps::require(line.size() == width, "tradeoff: line ", n + 1, " of the table of ", scene.name, " has ", line.size(),
-                  " fields instead of ", width, "; sweep the scene again");
+    examples::require(line.size() == width, "tradeoff: line ", n + 1, " of the table of ", scene.name, " has ",
+                      line.size(), " fields instead of ", width, "; sweep the scene again");
     Trial run;
     std::size_t at = 0;
     for (const Parameter& p : scene.parameters) {
@@ -78,8 +79,8 @@ namespace tradeoff {
     }
     sweep.runs.push_back(std::move(run));
   }
-  hmps::require(!sweep.runs.empty() && sweep.standard().settings == scene.standard() && !sweep.standard().failed(),
-                "tradeoff: the table of ", scene.name, " does not begin with its standard; sweep the scene again");
+  examples::require(!sweep.runs.empty() && sweep.standard().settings == scene.standard() && !sweep.standard().failed(),
+                    "tradeoff: the table of ", scene.name, " does not begin with its standard; sweep the scene again");
   return sweep;
 }
 

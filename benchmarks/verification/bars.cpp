@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/error.hpp"
 #include "scenes/timoshenko.hpp"
 #include "verification/problems.hpp"
 #include "verification/support.hpp"
@@ -135,7 +136,7 @@ Problem rubber_bar() {
   Problem problem{
       .name = "rubber bar",
       .title = "6 b. Thin bar of stiff volume",
-      .text = hmps::message(
+      .text = examples::message(
           "A free bar of 48 x 4.8 x 4.8 mm, mu = 7 kPa, Mooney-Rivlin, rho = 1000, is started in the shape of its "
           "first bending mode, for three ratios of bulk and shear modulus. The answer is the frequency of a "
           "Timoshenko beam, which for the bar of problem 6 is ",
@@ -151,7 +152,7 @@ Problem rubber_bar() {
           "[theory.md](../theory.md)). A bar of two particles is too stiff with both, and right with mean dilatation "
           "and E_hat = mu."};
   for (const double ratio : bulk_over_shear)
-    problem.quantities.push_back({.name = hmps::message("K/mu = ", ratio),
+    problem.quantities.push_back({.name = examples::message("K/mu = ", ratio),
                                   .unit = "Hz",
                                   .answer = beam_frequency(rubber(ratio)),
                                   .source = "beam theory",

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "verification/problems.hpp"
 #include "verification/support.hpp"
 
@@ -95,7 +96,7 @@ Problem uniaxial_stress() {
   std::vector<Case> cases;
   for (const auto& [stretch, answer] :
        {std::pair{0.5, -17515.426}, {0.7, -7597.4589}, {1.3, 5418.6321}, {1.5, 8771.2136}, {2.0, 17414.0623}})
-    cases.push_back({free_stretch(stretch, 1), 0, 0, "stress at " + hmps::message(stretch), answer});
+    cases.push_back({free_stretch(stretch, 1), 0, 0, "stress at " + examples::message(stretch), answer});
   return homogeneous(
       "uniaxial stress", "3. Uniaxial stress",
       "A bar of the seed law whose ends are held at a stretch, with free sides. The free particles start "
@@ -106,7 +107,7 @@ Problem uniaxial_stress() {
 Problem equibiaxial_stress() {
   std::vector<Case> cases;
   for (const auto& [stretch, answer] : {std::pair{0.8, -9822.3128}, {1.1, 3859.0892}, {1.5, 21863.3411}})
-    cases.push_back({free_stretch(stretch, 2), 0, 0, "stress at " + hmps::message(stretch), answer});
+    cases.push_back({free_stretch(stretch, 2), 0, 0, "stress at " + examples::message(stretch), answer});
   return homogeneous("equibiaxial stress", "4. Equibiaxial stress",
                      "The same for a sheet that is held all around, stretched equally along two axes.", 2, cases);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "common/files.hpp"
 #include "report/study.hpp"
 #include "verification/page.hpp"
@@ -60,8 +61,8 @@ int main(int argc, char** argv) {
       for (const Problem& problem : all) std::printf("%s\n", problem.name.c_str());
     if (list) return;
     for (const std::string& name : chosen)
-      hmps::require(std::any_of(all.begin(), all.end(), [&](const Problem& p) { return p.name == name; }),
-                    "verification: there is no problem ", name, "; --list names them");
+      examples::require(std::any_of(all.begin(), all.end(), [&](const Problem& p) { return p.name == name; }),
+                        "verification: there is no problem ", name, "; --list names them");
     for (Problem& problem : all)
       if (study.quick && problem.sizes.size() > 3) problem.sizes.resize(3);
     const auto wanted = [&](const Problem& problem) {
@@ -75,8 +76,8 @@ int main(int argc, char** argv) {
     // The page is of all problems, but for that of a quick run, which nobody keeps.
     if (tables || !(study.document.empty() || study.quick))
       for (const Problem& problem : all)
-        hmps::require(wanted(problem) || read_trials(problem, old).size() == runs_of(problem), known.string(),
-                      " does not have all runs of ", problem.name, "; run it too, by --only, or run all problems");
+        examples::require(wanted(problem) || read_trials(problem, old).size() == runs_of(problem), known.string(),
+                          " does not have all runs of ", problem.name, "; run it too, by --only, or run all problems");
     const std::vector<Solved> solved = solve_all(all, old, table, wanted);
     std::printf("%s\n", summary(solved).c_str());
     draw(solved, study.out / "verification.png");

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/error.hpp"
 #include "report/table.hpp"
 #include "report/text.hpp"
 #include "verification/problem.hpp"
@@ -33,8 +34,8 @@ struct Solved {
     trial.measured.values.assign(problem.quantities.size(), std::nan(""));
   }
   trial.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  hmps::require(trial.measured.values.size() == problem.quantities.size(), "verification: ", problem.name, " gave ",
-                trial.measured.values.size(), " values for ", problem.quantities.size(), " quantities");
+  examples::require(trial.measured.values.size() == problem.quantities.size(), "verification: ", problem.name, " gave ",
+                    trial.measured.values.size(), " values for ", problem.quantities.size(), " quantities");
   return trial;
 }
 

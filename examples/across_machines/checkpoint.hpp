@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../common/checksum.hpp"
+#include "../common/error.hpp"
 #include "../common/files.hpp"
 #include "messages.hpp"
 #include "simulation.hpp"
@@ -52,23 +53,23 @@ inline void write_checkpoint(const std::filesystem::path& path, const RunSetting
   const std::string bytes = examples::read_file(path);
   const CheckpointHeader expected;
   CheckpointHeader header;
-  hmps::require(bytes.size() >= sizeof(header) + 8, "hmps: ", path.string(), " is too short for a checkpoint");
+  examples::require(bytes.size() >= sizeof(header) + 8, "hmps: ", path.string(), " is too short for a checkpoint");
   std::memcpy(&header, bytes.data(), sizeof(header));
-  hmps::require(std::memcmp(header.magic, expected.magic, sizeof(header.magic)) == 0, "hmps: ", path.string(),
-                " is no checkpoint of this version of the program");
-  hmps::require(header.byte_order == expected.byte_order, "hmps: ", path.string(),
-                " was written on a machine with another order of bytes");
+  examples::require(std::memcmp(header.magic, expected.magic, sizeof(header.magic)) == 0, "hmps: ", path.string(),
+                    " is no checkpoint of this version of the program");
+  examples::require(header.byte_order == expected.byte_order, "hmps: ", path.string(),
+                    " was written on a machine with another order of bytes");
   std::uint64_t sum = 0;
   std::memcpy(&sum, bytes.data() + bytes.size() - 8, 8);
-  hmps::require(sum == examples::checksum(std::string_view(bytes).substr(0, bytes.size() - 8)), "hmps: ", path.string(),
-                " is damaged: its checksum does not match; start anew without --resume");
-  hmps::require(header.settings.particles == settings.particles && header.settings.dt == settings.dt,
-                "hmps: ", path.string(), " is of a run of ", header.settings.particles,
-                " particles with a time step of ", header.settings.dt, " s, but this one has ", settings.particles,
-                " and ", settings.dt, "; resume with the same settings, or start anew without --resume");
+  examples::require(sum == examples::checksum(std::string_view(bytes).substr(0, bytes.size() - 8)),
+                    "hmps: ", path.string(), " is damaged: its checksum does not match; start anew without --resume");
+  examples::require(header.settings.particles == settings.particles && header.settings.dt == settings.dt,
+                    "hmps: ", path.string(), " is of a run of ", header.settings.particles,
+                    " particles with a time step of ", header.settings.dt, " s, but this one has ", settings.particles,
+                    " and ", settings.dt, "; resume with the same settings, or start anew without --resume");
   const std::size_t length = settings.particles * sizeof(Vector);
-  hmps::require(bytes.size() == sizeof(header) + 2 * length + 8, "hmps: ", path.string(), " has ", bytes.size(),
-                " bytes, which is not the size of its particles");
+  examples::require(bytes.size() == sizeof(header) + 2 * length + 8, "hmps: ", path.string(), " has ", bytes.size(),
+                    " bytes, which is not the size of its particles");
   std::memcpy(state.x.data()->data(), bytes.data() + sizeof(header), length);
   std::memcpy(state.v.data()->data(), bytes.data() + sizeof(header) + length, length);
   return header.step;

@@ -14,6 +14,7 @@
 #include <hmps/contact/contact.hpp>
 #include <hmps/core/view.hpp>
 
+#include "../common/error.hpp"
 #include "meeting.hpp"
 #include "messages.hpp"
 #include "partition.hpp"
@@ -98,9 +99,9 @@ class ContactOfRank {
   void require_slow(double t, double dt, const std::vector<Vector>& v) const {
     for (std::size_t k = 0; k < own_.size(); ++k)
       if (const double way = v[own_[k]].norm() * dt; way > margin)
-        throw hmps::StateError(hmps::message("hmps: at t = ", t, " s, surface particle ", part_.particles[own_[k]],
-                                             " of the scene moves by ", way, " m in a step, but contact between ranks ",
-                                             "follows at most ", margin, " m; try a smaller time step"));
+        throw hmps::StateError(examples::message(
+            "hmps: at t = ", t, " s, surface particle ", part_.particles[own_[k]], " of the scene moves by ", way,
+            " m in a step, but contact between ranks ", "follows at most ", margin, " m; try a smaller time step"));
   }
 
   /// To be called by all ranks at once.
@@ -155,9 +156,9 @@ class ContactOfRank {
                                     hmps::matrices(std::as_const(F_)), dt, hmps::vectors(f_));
     late_ = late_before_ + report.late;
     if (report.deep > 0)
-      throw hmps::StateError(hmps::message("hmps: at t = ", t, " s, the wall of '", body_name[report.lost_in],
-                                           "' has lost particle ", particle_[report.lost], " of the scene, ",
-                                           report.lost_depth, " m deep in it or through; try a smaller time step"));
+      throw hmps::StateError(examples::message("hmps: at t = ", t, " s, the wall of '", body_name[report.lost_in],
+                                               "' has lost particle ", particle_[report.lost], " of the scene, ",
+                                               report.lost_depth, " m deep in it or through; try a smaller time step"));
     touching_ = 0;
     for (const auto& [from, to] : copies_) {
       f[from] += f_[to];

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/error.hpp"
 #include "../common/files.hpp"
 #include "count.hpp"
 #include "page.hpp"
@@ -47,11 +48,11 @@ std::vector<std::vector<Count>> read_counts(const std::string& path) {
     std::istringstream fields(line);
     const bool read = static_cast<bool>(fields >> c.particles >> c.parts >> c.own >> c.layer >> c.gathered >> c.peers >>
                                         c.without_contact >> c.bytes >> c.contact >> c.all_bytes);
-    hmps::require(read && (c.parts == 1 || !all.empty()), "hmps: cannot read a line of ", path, ": ", line);
+    examples::require(read && (c.parts == 1 || !all.empty()), "hmps: cannot read a line of ", path, ": ", line);
     if (c.parts == 1) all.emplace_back();
     all.back().push_back(c);
   }
-  hmps::require(!all.empty(), "hmps: there are no counts in ", path);
+  examples::require(!all.empty(), "hmps: there are no counts in ", path);
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <string>
 
+#include "../common/error.hpp"
 #include "checkpoint.hpp"
 #include "messages.hpp"
 #include "partition.hpp"
@@ -72,10 +73,10 @@ void run(const Options& options, const Ranks& ranks) {
   const RunSettings settings{scene.size(), options.dt};
   State state;
   const std::uint64_t first = start(options, scene, ranks, state);
-  hmps::require(first <= options.steps, "hmps: ", options.out, " is of step ", first, ", which is beyond --steps ",
-                options.steps, "; give a larger --steps, or start anew without --resume");
+  examples::require(first <= options.steps, "hmps: ", options.out, " is of step ", first, ", which is beyond --steps ",
+                    options.steps, "; give a larger --steps, or start anew without --resume");
   if (options.plain) {
-    hmps::require(ranks.size == 1, "hmps: --plain is for one rank, but there are ", ranks.size);
+    examples::require(ranks.size == 1, "hmps: --plain is for one rank, but there are ", ranks.size);
     run_plainly(scene, options.dt, first, options.steps, state);
     write_checkpoint(options.out, settings, options.steps, state);
     return;
@@ -111,7 +112,7 @@ void run(const Options& options, const Ranks& ranks) {
 
 /// Half of the time that a message of 8 bytes takes there and back, and what 1 MB takes more.
 void measure_network(const Ranks& ranks) {
-  hmps::require(ranks.size == 2, "hmps: --measure-network is for two ranks, but there are ", ranks.size);
+  examples::require(ranks.size == 2, "hmps: --measure-network is for two ranks, but there are ", ranks.size);
   const auto seconds = [&](std::size_t bytes, int times) {
     std::vector<char> buffer(bytes);
     const int other = 1 - ranks.rank, size = static_cast<int>(bytes);

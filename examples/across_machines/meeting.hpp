@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include <hmps/search/grid.hpp>
+#include <hmps/core/view.hpp>
+#include <hmps/search/fixed_radius.hpp>
 
 #include "scene.hpp"
 
@@ -41,15 +43,17 @@ template <class Own>
   for (std::size_t k = 0; k < place.size(); ++k)
     if ((low - place[k]).cwiseMax(place[k] - high).maxCoeff() <= hops * reach) nearby.push_back(static_cast<Index>(k));
 
-  hmps::Grid<double, 3> grid;
-  grid.build(nearby.size(), reach, [&](std::size_t q) { return place[nearby[q]]; });
+  std::vector<Point> there;
+  for (const Index k : nearby) there.push_back(place[k]);
+  const hmps::FixedRadiusSearch search(hmps::vectors(std::as_const(there)));
+  std::vector<Index> within;
   constexpr std::uint8_t unknown = 255;
   std::vector<std::uint8_t> hop(nearby.size(), unknown);
   std::vector<Index> front, next;
   const auto for_each_partner = [&](Index q, auto&& visit) {
-    grid.visit(place[nearby[q]], reach, [&](Index other, double) {
+    search(there[q], reach, within);
+    for (const Index other : within)
       if (surface[nearby[other]].body != surface[nearby[q]].body) visit(other);
-    });
   };
   for (std::size_t q = 0; q < nearby.size(); ++q) {
     if (!own(nearby[q])) continue;

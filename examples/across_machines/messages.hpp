@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../common/error.hpp"
 #include "scene.hpp"
 
 namespace across_machines {
@@ -90,8 +91,8 @@ void exchange(const Ranks& ranks, std::vector<Peer>& peers, std::size_t first, s
     return of_first * first + (all - of_first) * second;
   };
   const auto length = [](const std::vector<char>& buffer) {
-    hmps::require(buffer.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()), "hmps: a message of ",
-                  buffer.size(), " bytes is longer than MPI can send; use more ranks");
+    examples::require(buffer.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()), "hmps: a message of ",
+                      buffer.size(), " bytes is longer than MPI can send; use more ranks");
     return static_cast<int>(buffer.size());
   };
   std::vector<MPI_Request> requests;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "../common/error.hpp"
 #include "scene.hpp"
 
 namespace across_machines {
@@ -68,8 +69,8 @@ class Cutter {
   for (std::size_t i = 0; i < part_of.size(); ++i)
     own[static_cast<std::size_t>(part_of[i])].push_back(static_cast<Index>(i));
   for (std::size_t p = 0; p < own.size(); ++p)
-    hmps::require(!own[p].empty(), "hmps: part ", p, " of ", parts, " has no particles, of ", part_of.size(),
-                  " in all; use fewer ranks, or more particles");
+    examples::require(!own[p].empty(), "hmps: part ", p, " of ", parts, " has no particles, of ", part_of.size(),
+                      " in all; use fewer ranks, or more particles");
   return own;
 }
 
@@ -130,8 +131,8 @@ class CubeGraph {
   /// The part of each particle, of `parts`, with as few bonds between parts as METIS finds. The same on every call.
   [[nodiscard]] std::vector<int> divide(int parts) {
     auto count = static_cast<idx_t>(weight_.size()), wanted = static_cast<idx_t>(parts);
-    hmps::require(parts >= 1 && wanted <= count, "hmps: ", cube_of_.size(), " particles in ", count,
-                  " cubes cannot be divided into ", parts, " parts; use fewer ranks, or more particles");
+    examples::require(parts >= 1 && wanted <= count, "hmps: ", cube_of_.size(), " particles in ", count,
+                      " cubes cannot be divided into ", parts, " parts; use fewer ranks, or more particles");
     std::vector<idx_t> part(weight_.size(), 0);
     if (parts > 1) {
       idx_t constraints = 1, cut = 0, options[METIS_NOPTIONS];
@@ -140,8 +141,8 @@ class CubeGraph {
       const int result =
           METIS_PartGraphKway(&count, &constraints, begin_.data(), neighbour_.data(), weight_.data(), nullptr,
                               bonds_.data(), &wanted, nullptr, nullptr, options, &cut, part.data());
-      hmps::require(result == METIS_OK, "hmps: METIS could not divide ", count, " cubes into ", parts,
-                    " parts and returned ", result, "; is there enough memory?");
+      examples::require(result == METIS_OK, "hmps: METIS could not divide ", count, " cubes into ", parts,
+                        " parts and returned ", result, "; is there enough memory?");
     }
     std::vector<int> of(cube_of_.size());
     for (std::size_t i = 0; i < of.size(); ++i) of[i] = static_cast<int>(part[static_cast<std::size_t>(cube_of_[i])]);

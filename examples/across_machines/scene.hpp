@@ -13,6 +13,8 @@
 #include <hmps/core/error.hpp>
 #include <hmps/core/types.hpp>
 
+#include "../common/error.hpp"
+
 namespace across_machines {
 
 using hmps::Index;
@@ -32,8 +34,8 @@ struct SurfaceParticle {
 class Scene {
  public:
   explicit Scene(double particles) {
-    hmps::require(particles >= 1280 && particles <= 1e8, "hmps: a scene of ", particles,
-                  " particles was asked for; give from 1280 to 1e8");
+    examples::require(particles >= 1280 && particles <= 1e8, "hmps: a scene of ", particles,
+                      " particles was asked for; give from 1280 to 1e8");
     const double k = std::cbrt(particles / 20);
     const auto whole = [](double x) { return static_cast<int>(std::lround(x)); };
     const int edge = whole(2 * k);

@@ -20,6 +20,7 @@
 #include <hmps/terms/viscous.hpp>
 #include <hmps/time/symplectic_euler.hpp>
 
+#include "../common/error.hpp"
 #include "contact_of_rank.hpp"
 #include "messages.hpp"
 #include "partition.hpp"
@@ -177,7 +178,7 @@ class Simulation {
   void require_finite(double t) const {
     for (std::size_t k = 0; k < part_.own; ++k)
       if (!state_.x[k].allFinite() || !state_.v[k].allFinite())
-        throw hmps::StateError(hmps::message(
+        throw hmps::StateError(examples::message(
             "hmps: at t = ", t, " s, particle ", part_.particles[k], " of the scene is at (", state_.x[k].transpose(),
             ") m with (", state_.v[k].transpose(), ") m/s; the run has become unstable: try a smaller time step"));
   }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "error.hpp"
 #include "files.hpp"
 
 namespace examples {
@@ -39,8 +40,8 @@ class Canvas {
  public:
   Canvas(int width, int height) : width_(width), height_(height) {
     surface_ = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
-    hmps::require(cairo_surface_status(surface_) == CAIRO_STATUS_SUCCESS, "no memory for a picture of ", width, " by ",
-                  height, " pixels");
+    require(cairo_surface_status(surface_) == CAIRO_STATUS_SUCCESS, "no memory for a picture of ", width, " by ",
+            height, " pixels");
     context_ = cairo_create(surface_);
     rectangle(0, 0, width, height, {1, 1, 1});
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
@@ -132,7 +133,7 @@ class Canvas {
       return CAIRO_STATUS_SUCCESS;
     };
     const bool made = cairo_surface_write_to_png_stream(surface_, append, &bytes) == CAIRO_STATUS_SUCCESS;
-    hmps::require(made, "cannot make the picture ", path.string());
+    require(made, "cannot make the picture ", path.string());
     write_atomically(path, bytes);
   }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "error.hpp"
 #include "files.hpp"
 
 namespace examples {
@@ -37,7 +38,7 @@ class CsvWriter {
   /// otherwise it starts anew with the line `header`.
   CsvWriter(const fs::path& path, std::string_view header, bool keep = false) : path_(path) {
     file_ = std::fopen(path.c_str(), keep ? "ab" : "wb");
-    hmps::require(file_ != nullptr, "cannot write ", path.string(), ": ", std::strerror(errno));
+    require(file_ != nullptr, "cannot write ", path.string(), ": ", std::strerror(errno));
     if (!keep) put(std::string(header) + '\n');
     flush_folder(path.parent_path());
   }
@@ -48,14 +49,13 @@ class CsvWriter {
   void add(std::span<const double> row) { put(csv_line(row)); }
   /// Writes to the disk what was added so far: from then on a loss of power leaves it whole.
   void flush_to_disk() {
-    hmps::require(::fsync(::fileno(file_)) == 0, "cannot write ", path_.string(),
-                  " to the disk: ", std::strerror(errno));
+    require(::fsync(::fileno(file_)) == 0, "cannot write ", path_.string(), " to the disk: ", std::strerror(errno));
   }
 
  private:
   void put(const std::string& text) {
     const bool written = std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0;
-    hmps::require(written, "cannot write ", path_.string(), ": ", std::strerror(errno));
+    require(written, "cannot write ", path_.string(), ": ", std::strerror(errno));
   }
 
   fs::path path_;

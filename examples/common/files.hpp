@@ -14,6 +14,8 @@
 
 #include <hmps/core/error.hpp>
 
+#include "error.hpp"
+
 /// Small helpers that the example programs share. They are no part of the library.
 namespace examples {
 
@@ -26,7 +28,7 @@ inline void flush_folder(const fs::path& path) {
   const bool flushed = folder >= 0 && (::fsync(folder) == 0 || errno == EINVAL);  // EINVAL: it has no need of it
   const int reason = errno;
   if (folder >= 0) ::close(folder);
-  hmps::require(flushed, "cannot write the folder ", path.string(), " to the disk: ", std::strerror(reason));
+  require(flushed, "cannot write the folder ", path.string(), " to the disk: ", std::strerror(reason));
 }
 
 /// Replaces the file at `path` by `bytes`, such that at any moment, also after kill -9 or a loss of
@@ -35,8 +37,8 @@ inline void flush_folder(const fs::path& path) {
 inline void write_atomically(const fs::path& path, std::string_view bytes) {
   const fs::path temporary = path.string() + ".part";
   const auto fail = [&](const char* what) {
-    throw hmps::InputError(hmps::message("cannot ", what, " ", path.string(), ": ", std::strerror(errno),
-                                         "; check the permissions and the free space of the output folder"));
+    throw hmps::InputError(message("cannot ", what, " ", path.string(), ": ", std::strerror(errno),
+                                   "; check the permissions and the free space of the output folder"));
   };
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) fail("write");
@@ -57,9 +59,9 @@ inline void write_atomically(const fs::path& path, std::string_view bytes) {
 /// The bytes of the file at `path`. Throws `InputError` if it cannot be read.
 [[nodiscard]] inline std::string read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  hmps::require(static_cast<bool>(file), "cannot read ", path.string(), ": ", std::strerror(errno));
+  require(static_cast<bool>(file), "cannot read ", path.string(), ": ", std::strerror(errno));
   std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  hmps::require(!file.bad(), "cannot read ", path.string(), " to its end: ", std::strerror(errno));
+  require(!file.bad(), "cannot read ", path.string(), " to its end: ", std::strerror(errno));
   return bytes;
 }
 
@@ -68,8 +70,8 @@ inline void write_atomically(const fs::path& path, std::string_view bytes) {
 inline void prepare_folder(const fs::path& path) {
   std::error_code problem;
   fs::create_directories(path, problem);
-  hmps::require(fs::is_directory(path), "cannot make the output folder ", path.string(), ": ",
-                problem ? problem.message() : "a file of that name is in the way", "; choose another one with --out");
+  require(fs::is_directory(path), "cannot make the output folder ", path.string(), ": ",
+          problem ? problem.message() : "a file of that name is in the way", "; choose another one with --out");
   const fs::path probe = path / ".writable";
   std::ofstream file(probe);
   file << "probe\n";
@@ -77,8 +79,8 @@ inline void prepare_folder(const fs::path& path) {
   const bool written = static_cast<bool>(file);
   const std::string reason = written ? "" : std::strerror(errno);
   fs::remove(probe, problem);
-  hmps::require(written, "cannot write to the output folder ", path.string(), ": ", reason,
-                "; choose another one with --out or change its permissions");
+  require(written, "cannot write to the output folder ", path.string(), ": ", reason,
+          "; choose another one with --out or change its permissions");
 }
 
 }  // namespace examples

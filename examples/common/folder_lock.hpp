@@ -11,6 +11,7 @@
 #include <iostream>
 #include <string>
 
+#include "error.hpp"
 #include "files.hpp"
 
 namespace examples {
@@ -27,21 +28,21 @@ class FolderLock {
   explicit FolderLock(const fs::path& path, Taken taken = Taken::fail) {
     const fs::path name = path / ".lock";
     file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    hmps::require(file_ >= 0, "cannot write ", name.string(), ": ", std::strerror(errno),
-                  "; check the permissions of the output folder");
+    require(file_ >= 0, "cannot write ", name.string(), ": ", std::strerror(errno),
+            "; check the permissions of the output folder");
     int problem = 0;
     do problem = ::flock(file_, taken == Taken::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
     while (problem == EINTR);
     if (problem == EWOULDBLOCK) {
       const std::string owner = content();
       ::close(file_);
-      throw hmps::InputError(hmps::message("the folder ", path.string(), " is being written by another run",
-                                           owner.empty() ? "" : hmps::message(" (process ", owner, ")"),
-                                           "; wait for its end, or choose another folder with --out"));
+      throw hmps::InputError(message("the folder ", path.string(), " is being written by another run",
+                                     owner.empty() ? "" : message(" (process ", owner, ")"),
+                                     "; wait for its end, or choose another folder with --out"));
     }
     if (problem != 0)
-      std::cerr << hmps::message("warning: cannot lock ", name.string(), ": ", std::strerror(problem),
-                                 "; see yourself that no other run writes there\n");
+      std::cerr << message("warning: cannot lock ", name.string(), ": ", std::strerror(problem),
+                           "; see yourself that no other run writes there\n");
     const std::string process = std::to_string(::getpid());
     // Only for the message above: without it the lock holds all the same.
     if (::ftruncate(file_, 0) == 0) static_cast<void>(::pwrite(file_, process.data(), process.size(), 0) == 0);

@@ -9,6 +9,7 @@
 
 #include "../common/arguments.hpp"
 #include "../common/csv_writer.hpp"
+#include "../common/error.hpp"
 #include "../common/streams.hpp"
 #include "probe.hpp"
 
@@ -22,7 +23,7 @@ State read_state(const std::string& path) {
   const std::size_t X[] = {table.column("X"), table.column("Y"), table.column("Z")},
                     x[] = {table.column("x"), table.column("y"), table.column("z")},
                     v[] = {table.column("vx"), table.column("vy"), table.column("vz")}, body = table.column("body");
-  hmps::require(table.rows() > 0, path, " has no particles; give a line for each below the header");
+  examples::require(table.rows() > 0, path, " has no particles; give a line for each below the header");
   State state;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto triple = [&](const std::size_t(&columns)[3]) {
@@ -32,8 +33,8 @@ State read_state(const std::string& path) {
     state.position.push_back(triple(x));
     state.velocity.push_back(triple(v));
     const double number = table(i, body);
-    hmps::require(number == std::floor(number) && std::abs(number) < 1e9, path, " line ", table.lines[i],
-                  ": the body of particle ", i, " is ", number, "; it must be a whole number");
+    examples::require(number == std::floor(number) && std::abs(number) < 1e9, path, " line ", table.lines[i],
+                      ": the body of particle ", i, " is ", number, "; it must be a whole number");
     state.body.push_back(static_cast<int>(number));
   }
   return state;

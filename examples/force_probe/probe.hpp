@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/error.hpp"
+
 /// The forces of the paper on any state that one hands over, for checking another code's against.
 namespace force_probe {
 
@@ -99,9 +101,9 @@ template <class S>
   const auto v = hmps::vectors(state.velocity);
   hmps::require_finite(hmps::vectors(state.reference), "the reference positions");
   const double nearest = hmps::nearest_spacing(hmps::vectors(state.reference));
-  hmps::require(nearest == 0 || (settings.spacing < 2 * nearest && settings.spacing > nearest / 2), "the spacing is ",
-                settings.spacing, " m, but the nearest neighbours of the reference lie ", nearest,
-                " m apart; give the spacing of the particles in metres");
+  examples::require(nearest == 0 || (settings.spacing < 2 * nearest && settings.spacing > nearest / 2),
+                    "the spacing is ", settings.spacing, " m, but the nearest neighbours of the reference lie ",
+                    nearest, " m apart; give the spacing of the particles in metres");
   hmps::require_finite(x, "the positions");
   hmps::require_finite(v, "the velocities");
   const hmps::BondList<S, 3> bonds(hmps::vectors(state.reference), {.spacing = settings.spacing},
@@ -115,8 +117,8 @@ template <class S>
   hmps::deformation_gradient(bonds, x, F);
   for (std::size_t i = 0; i < size; ++i) {
     forces.J.push_back(static_cast<double>(F[i].determinant()));
-    hmps::require(forces.J[i] > 0, "particle ", i, " is turned inside out: det F = ", forces.J[i],
-                  "; the law is defined for positive values only, so give a state that is less deformed");
+    examples::require(forces.J[i] > 0, "particle ", i, " is turned inside out: det F = ", forces.J[i],
+                      "; the law is defined for positive values only, so give a state that is less deformed");
   }
   const auto law = hmps::MooneyRivlin<S>::from_young(static_cast<S>(settings.young), static_cast<S>(settings.d1));
   hmps::internal_force(bonds, hmps::elastic(law))(x, hmps::vectors(forces.elastic));

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "../common/error.hpp"
 #include "../common/files.hpp"
 #include "../common/folder_lock.hpp"
 #include "output/checkpoint.hpp"
@@ -142,11 +143,11 @@ class Run {
   void describe_step() const {
     const auto& limit = simulation_.step_limit();
     const double share = simulation_.time_step() / limit.limit;
-    std::cerr << hmps::message(chosen_.name, ": ", summary_.particles_free, " free and ", summary_.particles_control,
-                               " control particles; step ", 1e6 * simulation_.time_step(),
-                               options_.time_step > 0 ? " us, " : " us at first, ", std::round(100 * share),
-                               " % of the limit at rest; ", simulation_.limited_by(), " (",
-                               name(scene_.organ[limit.particle]), ")\n");
+    std::cerr << examples::message(chosen_.name, ": ", summary_.particles_free, " free and ",
+                                   summary_.particles_control, " control particles; step ",
+                                   1e6 * simulation_.time_step(), options_.time_step > 0 ? " us, " : " us at first, ",
+                                   std::round(100 * share), " % of the limit at rest; ", simulation_.limited_by(), " (",
+                                   name(scene_.organ[limit.particle]), ")\n");
   }
   /// Whether the model has the control region: model Y has no F, and H can be left out.
   [[nodiscard]] bool has_region(std::string_view name) const {
@@ -165,15 +166,16 @@ class Run {
       if (at == counts.end()) at = counts.insert(counts.end(), {name, 0});
       at->second += particles[r].size();
     }
-    std::string text = hmps::message(chosen_.name, ": particles of the control regions");
+    std::string text = examples::message(chosen_.name, ": particles of the control regions");
     const char* separator = ": ";
-    for (const auto& [name, count] : counts) text += hmps::message(std::exchange(separator, ", "), name, " ", count);
+    for (const auto& [name, count] : counts)
+      text += examples::message(std::exchange(separator, ", "), name, " ", count);
     std::cerr << text << '\n';
     for (const auto& [name, count] : counts)
       if (count == 0)
-        std::cerr << hmps::message(chosen_.name, ": warning: control region ", name,
-                                   " has no particle at a spacing of ", 1e3 * scene_.spacing,
-                                   " mm and is left out: nothing of it moves\n");
+        std::cerr << examples::message(chosen_.name, ": warning: control region ", name,
+                                       " has no particle at a spacing of ", 1e3 * scene_.spacing,
+                                       " mm and is left out: nothing of it moves\n");
   }
   /// Keeps how near the step is to the limit, and warns where it is beyond.
   void compare_step(double time) {
@@ -184,10 +186,10 @@ class Run {
     if (!nearest || share > nearest->share)
       nearest = NearestToLimit{share, now.limit, time, now.particle, std::string(name(scene_.organ[now.particle]))};
     if (was_stable && share > 1)
-      std::cerr << hmps::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * step,
-                                 " us is beyond the limit of ", 1e6 * now.limit, " us that particle ", now.particle,
-                                 " (", nearest->organ, ") sets; try a smaller ",
-                                 options_.time_step > 0 ? "--time-step\n" : "--step-share\n");
+      std::cerr << examples::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * step,
+                                     " us is beyond the limit of ", 1e6 * now.limit, " us that particle ", now.particle,
+                                     " (", nearest->organ, ") sets; try a smaller ",
+                                     options_.time_step > 0 ? "--time-step\n" : "--step-share\n");
   }
   /// Looks at the limit again, for the steps that were taken, and lets those to come follow it. Throws `StateError`
   /// where it has all but vanished, since a run would not come to its end.
@@ -196,10 +198,11 @@ class Run {
     compare_step(time);
     const auto& now = simulation_.step_limit();
     if (now.limit < least_limit * summary_.time_step_limit)
-      throw hmps::StateError(hmps::message("at ", time, " s the largest stable step has fallen to ", 1e6 * now.limit,
-                                           " us, from ", 1e6 * summary_.time_step_limit, " us at rest: particle ",
-                                           now.particle, " of the ", name(scene_.organ[now.particle]),
-                                           " is crushed or torn; try a finer --spacing, or a gentler motion (--data)"));
+      throw hmps::StateError(
+          examples::message("at ", time, " s the largest stable step has fallen to ", 1e6 * now.limit, " us, from ",
+                            1e6 * summary_.time_step_limit, " us at rest: particle ", now.particle, " of the ",
+                            name(scene_.organ[now.particle]),
+                            " is crushed or torn; try a finer --spacing, or a gentler motion (--data)"));
     simulation_.follow_step_limit();
     summary_.time_step_min = std::min(summary_.time_step_min, simulation_.time_step());
     summary_.time_step_max = std::max(summary_.time_step_max, simulation_.time_step());
@@ -224,8 +227,8 @@ class Run {
         snapshots.add(panel, snapshot(simulation_, scene_));
   }
   [[nodiscard]] std::string title() const {
-    return hmps::message("Case ", chosen_.name, ": model ", chosen_.model == Model::X ? "X" : "Y", ", friction ",
-                         friction_, ", spacing ", 1e3 * options_.spacing, " mm");
+    return examples::message("Case ", chosen_.name, ": model ", chosen_.model == Model::X ? "X" : "Y", ", friction ",
+                             friction_, ", spacing ", 1e3 * options_.spacing, " mm");
   }
   void finish() {
     summary_.time = simulation_.time();
@@ -273,15 +276,15 @@ class Run {
     std::optional<Checkpoint> state = Checkpoint::load(checkpoint_file());
     if (state) {
       require_same_settings(*state, settings_, checkpoint_file());
-      std::cerr << hmps::message(chosen_.name, ": resumed at ", state->time, " s\n");
+      std::cerr << examples::message(chosen_.name, ": resumed at ", state->time, " s\n");
       return state;
     }
     const auto samples = read_series(folder_ / "series.csv");
-    hmps::require(samples.empty() || samples.back().time < checkpoint_interval + sample_interval / 2,
-                  (folder_ / "series.csv").string(), " goes to ", samples.empty() ? 0 : samples.back().time,
-                  " s, but there is no ", checkpoint_file().string(),
-                  " to resume from; put it back, or start anew without --resume");
-    std::cerr << hmps::message(chosen_.name, ": there is no checkpoint to resume from: starts at 0 s\n");
+    examples::require(samples.empty() || samples.back().time < checkpoint_interval + sample_interval / 2,
+                      (folder_ / "series.csv").string(), " goes to ", samples.empty() ? 0 : samples.back().time,
+                      " s, but there is no ", checkpoint_file().string(),
+                      " to resume from; put it back, or start anew without --resume");
+    std::cerr << examples::message(chosen_.name, ": there is no checkpoint to resume from: starts at 0 s\n");
     return std::nullopt;
   }
   void resume(const Checkpoint& state) {

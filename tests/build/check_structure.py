@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the structure of include/hmps and benchmarks: which folder may include which, no circles, nothing too long.
+"""Checks the structure of include/hmps, examples and benchmarks: which folder may include or use which, no circles,
+nothing too long.
 
 Folders of include/hmps are layers: a header includes headers of its own folder and of those before it in LAYERS. No
 header includes itself by way of others. A folder of benchmarks includes itself and what SHARED says, by its path from
-there. A file has at most MOST_LINES lines, a function at most MOST_FUNCTION_LINES.
+there. Of benchmarks only the folders INNER use hmps::detail; examples do not. A file has at most MOST_LINES lines, a
+function at most MOST_FUNCTION_LINES.
 """
 
 import pathlib
@@ -16,6 +18,7 @@ LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact
 # What a folder of benchmarks may include of others: a study the first two, a component's benchmark the last.
 SHARED = {"report": [], "scenes": [], "components": [], "hmps": ["components"]}
 STUDY = ["report", "scenes"]
+INNER = ["components", "hmps"]
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 
@@ -107,8 +110,19 @@ def check_benchmarks(root):
                 yield f"{name} includes {other}: what folders share belongs to {' or '.join(STUDY)}"
 
 
+def check_inner(root):
+    """Uses of hmps::detail in programs that users read as models."""
+    for path in sorted([*(root / "examples").rglob("*.[hc]pp"), *(root / "benchmarks").rglob("*.[hc]pp")]):
+        name = str(path.relative_to(root))
+        if name.split("/")[1] in INNER:
+            continue
+        for number, line in enumerate(without_comments(path.read_text(encoding="utf-8")).splitlines(), 1):
+            if re.search(r"\bhmps::detail\b", line):
+                yield f"{name}:{number} uses hmps::detail, which is for the library alone"
+
+
 def check(root):
-    problems, graph = list(check_benchmarks(root)), {}
+    problems, graph = [*check_benchmarks(root), *check_inner(root)], {}
     for path in sorted((root / "include").rglob("*.hpp")):
         name = str(path.relative_to(root / "include"))
         text = path.read_text(encoding="utf-8")
@@ -132,5 +146,5 @@ def check(root):
 
 if __name__ == "__main__":
     problems = check(pathlib.Path(__file__).resolve().parents[2])
-    print("\n".join(problems) if problems else "include/hmps and benchmarks: layers, circles and lengths are as they should be")
+    print("\n".join(problems) if problems else "include/hmps, examples and benchmarks: layers, circles and lengths are as they should be")
     sys.exit(1 if problems else 0)

@@ -42,7 +42,7 @@ void state(double bad, const std::vector<V>& X) {
   refuses("positions on a lattice", bad, [&] { hmps::LatticeBonds<double, 3>(hmps::vectors(x), {.spacing = 1e-3}); });
   refuses("positions to search", bad, [&] { (void)hmps::find_neighbours(hmps::vectors(x), 1e-3); });
   refuses("positions of a grid", bad, [&] {
-    hmps::Grid<double, 3> grid;
+    hmps::detail::Grid<double, 3> grid;
     grid.build(x.size(), 1e-3, [&](std::size_t k) { return x[k]; });
   });
   refuses("weak particles", bad, [&] { (void)hmps::find_weak(hmps::vectors(x), {.spacing = 1e-3}); });

@@ -161,7 +161,7 @@ int main(int argc, char** argv) {
       {"search_grid",
        [](int steps) {
          search(steps, [](const auto& x) {
-           hmps::Grid<double, 3> grid;
+           hmps::detail::Grid<double, 3> grid;
            grid.build(x.size(), 1.75 * spacing, [&](std::size_t k) { return x[k]; });
            std::size_t found = 0;
            for (std::size_t i = 0; i < x.size(); ++i)

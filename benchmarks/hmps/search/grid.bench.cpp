@@ -19,7 +19,7 @@ void search(benchmark::State& run, const Box& box, bool shuffled, const Executor
   const auto x = state.positions();
   std::size_t found = 0;
   for (auto _ : run) {
-    hmps::Grid<S, 3> grid;
+    hmps::detail::Grid<S, 3> grid;
     grid.build(box.size(), search_radius<S>, [&](std::size_t k) { return x[k]; });
     std::vector<std::size_t> offset(box.size() + 1, 0);
     execute(box.size(), [&](std::size_t i) {

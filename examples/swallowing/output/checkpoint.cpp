@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "../../common/checksum.hpp"
+#include "../../common/error.hpp"
 
 namespace swallowing {
 
@@ -42,7 +43,7 @@ struct Reader {
   }
   [[nodiscard]] std::string text() { return std::string(take(number<std::uint64_t>())); }
   [[nodiscard]] std::string_view take(std::uint64_t size) {
-    hmps::require(size <= bytes.size(), "the checkpoint ends too early");
+    examples::require(size <= bytes.size(), "the checkpoint ends too early");
     const std::string_view part = bytes.substr(0, size);
     bytes.remove_prefix(size);
     return part;
@@ -77,18 +78,18 @@ std::optional<Checkpoint> Checkpoint::load(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::string bytes = examples::read_file(path);
   const std::string remedy = "; remove it, or start anew without --resume";
-  hmps::require(bytes.starts_with(magic) && bytes.size() > magic.size() + 24, path.string(),
-                " is not a checkpoint of this program", remedy);
+  examples::require(bytes.starts_with(magic) && bytes.size() > magic.size() + 24, path.string(),
+                    " is not a checkpoint of this program", remedy);
   Reader in{std::string_view(bytes).substr(magic.size())};
   const auto found = in.number<std::uint64_t>();
-  hmps::require(found == version, path.string(), " is a checkpoint of version ", found, ", this program reads version ",
-                version, remedy);
-  hmps::require(in.number<std::uint64_t>() == byte_order, path.string(),
-                " was written on a machine with another order of bytes", remedy);
+  examples::require(found == version, path.string(), " is a checkpoint of version ", found,
+                    ", this program reads version ", version, remedy);
+  examples::require(in.number<std::uint64_t>() == byte_order, path.string(),
+                    " was written on a machine with another order of bytes", remedy);
   const std::string_view body = std::string_view(bytes).substr(0, bytes.size() - 8);
   std::uint64_t expected = 0;
   std::memcpy(&expected, bytes.data() + body.size(), 8);
-  hmps::require(checksum(body) == expected, path.string(), " is damaged: its checksum does not match", remedy);
+  examples::require(checksum(body) == expected, path.string(), " is damaged: its checksum does not match", remedy);
 
   Checkpoint checkpoint;
   checkpoint.time = in.number<double>();
@@ -102,8 +103,9 @@ std::optional<Checkpoint> Checkpoint::load(const std::filesystem::path& path) {
     array.name = in.text();
     array.width = in.number<std::uint64_t>();
     array.bytes = in.text();
-    hmps::require(array.width > 0 && array.bytes.size() % array.width == 0, path.string(), " is damaged: its array ",
-                  array.name, " has ", array.bytes.size(), " bytes in elements of ", array.width, remedy);
+    examples::require(array.width > 0 && array.bytes.size() % array.width == 0, path.string(),
+                      " is damaged: its array ", array.name, " has ", array.bytes.size(), " bytes in elements of ",
+                      array.width, remedy);
     checkpoint.arrays_.push_back(std::move(array));
   }
   return checkpoint;
@@ -111,8 +113,8 @@ std::optional<Checkpoint> Checkpoint::load(const std::filesystem::path& path) {
 
 const Checkpoint::Array& Checkpoint::find(const std::string& name) const {
   const auto found = std::find_if(arrays_.begin(), arrays_.end(), [&](const Array& a) { return a.name == name; });
-  hmps::require(found != arrays_.end(), "the checkpoint does not hold ", name,
-                "; it was written by another version of this program: start anew without --resume");
+  examples::require(found != arrays_.end(), "the checkpoint does not hold ", name,
+                    "; it was written by another version of this program: start anew without --resume");
   return *found;
 }
 
@@ -133,8 +135,8 @@ std::optional<std::string> first_difference(const RunSettings& other, const RunS
 void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
                            const std::filesystem::path& path) {
   const auto difference = first_difference(checkpoint.settings, settings);
-  hmps::require(!difference, path.string(), " was written by a run with ", difference.value_or(""),
-                ", which this one has; resume with the same settings, or start anew without --resume");
+  examples::require(!difference, path.string(), " was written by a run with ", difference.value_or(""),
+                    ", which this one has; resume with the same settings, or start anew without --resume");
 }
 
 }  // namespace swallowing

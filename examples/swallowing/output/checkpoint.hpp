@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../common/error.hpp"
 #include "../../common/files.hpp"
 
 namespace swallowing {
@@ -51,8 +52,8 @@ class Checkpoint {
   template <class T>
   [[nodiscard]] std::vector<T> get(const std::string& name) const {
     const Array& array = find(name);
-    hmps::require(array.width == sizeof(T), "the checkpoint holds ", name, " with ", array.width,
-                  " bytes per element, but ", sizeof(T), " are asked for");
+    examples::require(array.width == sizeof(T), "the checkpoint holds ", name, " with ", array.width,
+                      " bytes per element, but ", sizeof(T), " are asked for");
     std::vector<T> values(array.bytes.size() / sizeof(T));
     if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
     return values;
@@ -62,16 +63,17 @@ class Checkpoint {
   void get(const std::string& name, R& target) const {
     using T = std::ranges::range_value_t<R>;
     const Array& array = find(name);
-    hmps::require(array.width == sizeof(T) && array.bytes.size() == std::ranges::size(target) * sizeof(T),
-                  "the checkpoint holds ", array.bytes.size() / array.width, " elements of ", array.width, " bytes of ",
-                  name, ", the scene has ", std::ranges::size(target), " of ", sizeof(T));
+    examples::require(array.width == sizeof(T) && array.bytes.size() == std::ranges::size(target) * sizeof(T),
+                      "the checkpoint holds ", array.bytes.size() / array.width, " elements of ", array.width,
+                      " bytes of ", name, ", the scene has ", std::ranges::size(target), " of ", sizeof(T));
     if (!array.bytes.empty()) std::memcpy(std::ranges::data(target), array.bytes.data(), array.bytes.size());
   }
   /// The single number stored under `name`.
   template <class T>
   [[nodiscard]] T value(const std::string& name) const {
     const std::vector<T> values = get<T>(name);
-    hmps::require(values.size() == 1, "the checkpoint holds ", values.size(), " values of ", name, " instead of one");
+    examples::require(values.size() == 1, "the checkpoint holds ", values.size(), " values of ", name,
+                      " instead of one");
     return values[0];
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../common/error.hpp"
 #include "../../common/vtu.hpp"
 
 namespace swallowing {
@@ -63,11 +64,11 @@ class Frames {
       if (time <= resume_time + 5e-10) frames_.emplace_back(time, attribute("file", at));
     }
     const char* remedy = "; put it back, resume with --no-frames, or start anew without --resume";
-    hmps::require(frames_.size() == before, list.string(), " lists ", frames_.size(), " of the ", before,
-                  " frames that were written before the checkpoint", remedy);
+    examples::require(frames_.size() == before, list.string(), " lists ", frames_.size(), " of the ", before,
+                      " frames that were written before the checkpoint", remedy);
     for (const auto& [time, file] : frames_)
-      hmps::require(std::filesystem::exists(folder_ / file), (folder_ / file).string(),
-                    " is missing, which was written before the checkpoint", remedy);
+      examples::require(std::filesystem::exists(folder_ / file), (folder_ / file).string(),
+                        " is missing, which was written before the checkpoint", remedy);
   }
 
   std::filesystem::path folder_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "../../common/error.hpp"
 #include "output/checkpoint.hpp"
 #include "output/frames.hpp"
 #include "output/pictures.hpp"
@@ -31,10 +32,10 @@ struct History {
         contacts(folder / "contacts.csv", contacts_header, mark("contacts", resumed)),
         snapshots(folder / "snapshots", time(resumed)) {
     for (std::size_t panel = 0; resumed && panel < picture_times.size(); ++panel)
-      hmps::require(picture_times[panel] > resumed->time + 5e-10 || snapshots.load(panel), "in ",
-                    (folder / "snapshots").string(), " the moment at ", picture_times[panel],
-                    " s is missing, which was before the checkpoint; put its file back, or start anew without "
-                    "--resume");
+      examples::require(picture_times[panel] > resumed->time + 5e-10 || snapshots.load(panel), "in ",
+                        (folder / "snapshots").string(), " the moment at ", picture_times[panel],
+                        " s is missing, which was before the checkpoint; put its file back, or start anew without "
+                        "--resume");
     if (resumed) frames_before_ = resumed->value<std::uint64_t>("frames");
     if (with_frames) frames.emplace(folder, time(resumed), frames_before_);
   }

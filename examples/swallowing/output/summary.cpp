@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "../../common/error.hpp"
 #include "../../common/files.hpp"
 
 namespace swallowing {
@@ -109,8 +110,8 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
         s.settings.emplace_back(name, value.get<std::string>());
     return s;
   } catch (const Json::exception& problem) {
-    throw hmps::InputError(hmps::message(path.string(), " is not a summary of this program: ", problem.what(),
-                                         "; remove it or choose another folder with --out"));
+    throw hmps::InputError(examples::message(path.string(), " is not a summary of this program: ", problem.what(),
+                                             "; remove it or choose another folder with --out"));
   }
 }
 

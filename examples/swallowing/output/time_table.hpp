@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "../../common/csv_writer.hpp"
+#include "../../common/error.hpp"
 #include "output/digest.hpp"
 
 namespace swallowing {
@@ -32,8 +33,8 @@ using TableRows = std::vector<std::vector<double>>;
   TableRows rows;
   text = text.substr(0, text.rfind('\n') == std::string_view::npos ? 0 : text.rfind('\n') + 1);
   if (text.empty()) return rows;
-  hmps::require(text.substr(0, text.find('\n')) == header, path.string(), " is not a ", path.filename().string(),
-                " of this program; remove it or choose another folder with --out");
+  examples::require(text.substr(0, text.find('\n')) == header, path.string(), " is not a ", path.filename().string(),
+                    " of this program; remove it or choose another folder with --out");
   const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
   // A diverging run may leave inf and nan in its last lines, which are worth reading, too.
   for (std::size_t begin = text.find('\n') + 1; begin < text.size();) {
@@ -47,8 +48,8 @@ using TableRows = std::vector<std::vector<double>>;
       row.push_back(value);
       cell = last;
     }
-    hmps::require(whole && row.size() == columns, path.string(), " has a malformed line after ", rows.size() + 1,
-                  " lines; remove the file or choose another folder with --out");
+    examples::require(whole && row.size() == columns, path.string(), " has a malformed line after ", rows.size() + 1,
+                      " lines; remove the file or choose another folder with --out");
     rows.push_back(std::move(row));
     begin = end + 1;
   }
@@ -95,14 +96,14 @@ class TimeTable {
   }
   [[nodiscard]] TableRows kept(const std::filesystem::path& path, std::string_view header, const TableMark& mark) {
     const std::string text = std::filesystem::exists(path) ? examples::read_file(path) : std::string();
-    hmps::require(text.size() >= mark.bytes, path.string(), " has ", text.size(), " of the ", mark.bytes,
-                  " bytes that were written before the checkpoint, and what is lost would not come again; put the "
-                  "whole file back, or start anew without --resume");
+    examples::require(text.size() >= mark.bytes, path.string(), " has ", text.size(), " of the ", mark.bytes,
+                      " bytes that were written before the checkpoint, and what is lost would not come again; put the "
+                      "whole file back, or start anew without --resume");
     const std::string_view part = std::string_view(text).substr(0, mark.bytes);
     digest_.add(part);
-    hmps::require(digest_.value() == mark.digest, path.string(),
-                  " is no longer what was written before the checkpoint; put that file back, or start anew without "
-                  "--resume");
+    examples::require(digest_.value() == mark.digest, path.string(),
+                      " is no longer what was written before the checkpoint; put that file back, or start anew without "
+                      "--resume");
     if (text.size() > mark.bytes) examples::write_atomically(path, part);
     return parse_table(part, header, path);
   }

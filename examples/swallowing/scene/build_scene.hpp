@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../common/error.hpp"
 #include "scene/scene.hpp"
 
 namespace swallowing {
@@ -199,7 +200,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
   for (double z = constrictors.bottom() + l0 / 2; z < constrictors.top(); z += l0, ++row) {
     for (const int side : {-1, 1})
       scene.regions.push_back(
-          {hmps::message("H", row, side < 0 ? " left" : " right"), Region::door, row, double(side), z});
+          {examples::message("H", row, side < 0 ? " left" : " right"), Region::door, row, double(side), z});
     const std::size_t right = scene.regions.size() - 1;
     const auto [_, widest, back, half_width, front] = anatomy.pharynx.profile(z);
     for (int layer = 0; layer < layers; ++layer) {
@@ -229,8 +230,8 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
 /// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart.
 [[nodiscard]] inline Scene make_scene(const SceneSettings& settings) {
   const double l0 = settings.spacing;
-  hmps::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
-                " m; give 0.5e-3 to 2.4e-3, the sheets of 4.8 mm need two particles");
+  examples::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
+                    " m; give 0.5e-3 to 2.4e-3, the sheets of 4.8 mm need two particles");
   const Anatomy anatomy;
   const hmps::Box<double, 3> box{1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
   // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other. A plane

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "../../common/error.hpp"
+
 namespace swallowing {
 
 /// How the middle of the epiglottis moves (section 3.5 of the paper).
@@ -30,7 +32,7 @@ inline constexpr std::array<Case, 4> cases{{{"X1", Model::X, 0.1, 1.65},
 [[nodiscard]] inline const Case& find_case(std::string_view name) {
   for (const Case& c : cases)
     if (c.name == name) return c;
-  throw hmps::InputError(hmps::message("there is no case ", name, "; the cases are X1, X3, Y1 and Y3"));
+  throw hmps::InputError(examples::message("there is no case ", name, "; the cases are X1, X3, Y1 and Y3"));
 }
 
 }  // namespace swallowing

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../common/error.hpp"
 #include "scene/regions.hpp"
 #include "scene/rows.hpp"
 
@@ -56,7 +57,7 @@ namespace detail {
       for (std::size_t c = 0; c < table.columns(); ++c) part.values.push_back(table(row, c));
       part.lines.push_back(table.lines[row]);
     }
-  hmps::require(part.rows() > 0, table.source, " has no row for region ", region);
+  examples::require(part.rows() > 0, table.source, " has no row for region ", region);
   return part;
 }
 
@@ -72,12 +73,13 @@ namespace detail {
     std::array<double, columns.size()> row;
     for (std::size_t c = 0; c < columns.size(); ++c) row[c] = table(r, table.column(columns[c]));
     const auto [z, angle, start, duration, release, end, opened] = row;
-    hmps::require((rows.empty() || rows.back()[0] < z) && duration > 0 && start + duration < release && release < end,
-                  table.source, " line ", table.lines[r],
-                  ": a level needs a z above that of the row before, and start + duration < release < end");
+    examples::require(
+        (rows.empty() || rows.back()[0] < z) && duration > 0 && start + duration < release && release < end,
+        table.source, " line ", table.lines[r],
+        ": a level needs a z above that of the row before, and start + duration < release < end");
     rows.push_back(row);
   }
-  hmps::require(rows.size() > 1, table.source, " needs two levels at least");
+  examples::require(rows.size() > 1, table.source, " needs two levels at least");
   return constrictors;
 }
 
@@ -134,7 +136,7 @@ class Motion {
         pose.translation += pose.rotation * placement;  // It turns with the region.
         return pose;
       }
-    throw hmps::InputError(hmps::message("no motion is given for region ", region.name));
+    throw hmps::InputError(examples::message("no motion is given for region ", region.name));
   }
 
   /// Displacement (m) of the hyoid bone and of the larynx from rest at time `t`.

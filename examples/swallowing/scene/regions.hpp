@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../../common/error.hpp"
 #include "scene/anatomy.hpp"
 #include "scene/cases.hpp"
 
@@ -36,7 +37,7 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
 /// The control regions of the deforming body, in a fixed order.
 [[nodiscard]] inline std::vector<Region> body_regions() {
   std::vector<Region> regions{{"fixed", Region::fixed}};
-  for (int k = 0; k < 8; ++k) regions.push_back({hmps::message("B", k), Region::moved, k});
+  for (int k = 0; k < 8; ++k) regions.push_back({examples::message("B", k), Region::moved, k});
   regions.push_back({"A", Region::moved, 10});
   regions.push_back({"S1", Region::moved, 20});
   regions.push_back({"S2", Region::moved, 21});

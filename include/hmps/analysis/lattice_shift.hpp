@@ -17,8 +17,8 @@ namespace hmps::inline HMPS_ABI {
 template <int D = 3>
 [[nodiscard]] std::vector<Vector<double, D>> lattice_shifts(double spacing) {
   static_assert(D == 2 || D == 3, "hmps: lattices have 2 or 3 dimensions");
-  require(detail::is_finite(spacing) && spacing > 0, "hmps: a lattice of spacing ", spacing,
-          " m is to be shifted; give a positive number of metres");
+  detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: a lattice of spacing ", spacing,
+                  " m is to be shifted; give a positive number of metres");
   std::vector<Vector<double, D>> origins(1, Vector<double, D>::Zero());
   for (int c = 0; c < D; ++c) origins.push_back(spacing / 2 * Vector<double, D>::Unit(c));
   return origins;
@@ -48,8 +48,8 @@ template <int D = 3, class Run>
   LatticeSpread spread;
   for (const auto& origin : lattice_shifts<D>(spacing)) {
     const double value = static_cast<double>(run(origin));
-    require(detail::is_finite(value), "hmps: the result of the lattice with the origin (", origin.transpose(), ") is ",
-            value, "; an error bar needs finite results");
+    detail::require(detail::is_finite(value), "hmps: the result of the lattice with the origin (", origin.transpose(),
+                    ") is ", value, "; an error bar needs finite results");
     spread.values.push_back(value);
     spread.mean += value / (D + 1);
   }

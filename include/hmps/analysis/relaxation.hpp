@@ -241,7 +241,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
                 "force densities");
   const std::size_t n = x.size();
   detail::validate(settings);
-  require(n > 0, "hmps: relax was given no particle");
+  detail::require(n > 0, "hmps: relax was given no particle");
   require_size(v, n, "velocities");
   require_size(f, n, "force densities");
   require_apart(x, "positions", v, "velocities");

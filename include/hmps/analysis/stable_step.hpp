@@ -55,7 +55,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
                 "hmps: stable_step calls force(x, v, f) with VectorView<const T, D>, VectorView<const T, D> and "
                 "VectorView<T, D> of the scalar of the positions");
   detail::validate(settings);
-  require(x.size() > 0, "hmps: stable_step was given no particle");
+  detail::require(x.size() > 0, "hmps: stable_step was given no particle");
   require_size(v, x.size(), "velocities");
   require_positive(density, x.size(), "density", "kg/m3");
   require_finite(x, "the position");

@@ -53,9 +53,9 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   using T = typename VectorView<X, D>::Scalar;
   const std::size_t n = x.size();
   detail::validate(settings);
-  require(found.mode.size() == n * D, "hmps: the mode whose causes are asked for has ", found.mode.size(),
-          " numbers, but ", n, " particles in ", D, " dimensions need ", n * D,
-          "; give the result of stable_step for the same particles");
+  detail::require(found.mode.size() == n * D, "hmps: the mode whose causes are asked for has ", found.mode.size(),
+                  " numbers, but ", n, " particles in ", D, " dimensions need ", n * D,
+                  "; give the result of stable_step for the same particles");
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
   std::vector<StepCause> causes;
@@ -83,8 +83,8 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
 /// particle grows as this falls.
 template <class K, int D>
 [[nodiscard]] double relative_support(const Blocks<K, D>& bonds, std::size_t particle) {
-  require(particle < bonds.size(), "hmps: the support of particle ", particle, " is asked for, but there are only ",
-          bonds.size(), " particles");
+  detail::require(particle < bonds.size(), "hmps: the support of particle ", particle,
+                  " is asked for, but there are only ", bonds.size(), " particles");
   const Matrix<double, D> inverse = bonds.shape_inverse(particle).template cast<double>();
   const Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver(inverse, Eigen::EigenvaluesOnly);
   const double full = bonds.standard_lambda() * bonds.standard_density() / D;
@@ -96,13 +96,13 @@ template <class K, int D>
                                           double support = 1) {
   char step[32];
   std::snprintf(step, sizeof(step), "%.3g", found.step);
-  std::string text = message("at most ", step, " s, set by particle ", found.particle);
+  std::string text = detail::message("at most ", step, " s, set by particle ", found.particle);
   if (support < 0.95)
-    text += message(support > 0.4 ? " at a surface" : " at an edge or a thin place", " (support ",
-                    std::round(100 * support), " % of that inside)");
+    text += detail::message(support > 0.4 ? " at a surface" : " at an edge or a thin place", " (support ",
+                            std::round(100 * support), " % of that inside)");
   const char* link = ": ";
   for (const StepCause& cause : causes) {
-    text += message(link, cause.name, " ", std::round(100 * cause.share), " %");
+    text += detail::message(link, cause.name, " ", std::round(100 * cause.share), " %");
     link = ", ";
   }
   return text;

@@ -151,9 +151,9 @@ class LatticeBonds : public Blocks<K, D> {
   [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
                                                              const BondSettings& settings) {
     detail::validate(settings);
-    require(reference.size() > 0,
-            "hmps: there are no particles to bond; look at what was to make them (shape, spacing, "
-            "removal of weak ones)");
+    detail::require(reference.size() > 0,
+                    "hmps: there are no particles to bond; look at what was to make them (shape, spacing, "
+                    "removal of weak ones)");
     require_finite(reference, "the reference position");
     std::array<int, std::size_t{D}> axes{};
     std::copy_n(settings.axes.begin(), D, axes.begin());
@@ -181,8 +181,8 @@ class LatticeBonds : public Blocks<K, D> {
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
       const double radius = settings.spacing * settings.radius_ratio;
       const double w = weight(std::min(r0.norm(), radius), radius);
-      require(detail::is_finite(w), "hmps: the weight at the distance ", r0.norm(), " m is ", w,
-              "; a weight function must be finite within the effective radius");
+      detail::require(detail::is_finite(w), "hmps: the weight at the distance ", r0.norm(), " m is ", w,
+                      "; a weight function must be finite within the effective radius");
       if (!(w > 0)) continue;
       inside.add(r0, w);
       Offset& offset = offset_.emplace_back();
@@ -218,8 +218,8 @@ class LatticeBonds : public Blocks<K, D> {
 
   /// Sorts the runs, which arrive offset by offset, by block; a counting sort preserves the order of offsets.
   void keep_runs(const std::vector<Placed>& placed) {
-    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", this->size(),
-            " particles make ", placed.size(), " runs, more than can be numbered; divide the body");
+    detail::require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", this->size(),
+                    " particles make ", placed.size(), " runs, more than can be numbered; divide the body");
     first_run_.assign(this->block_count() * directions + 1, 0);
     for (const Placed& p : placed) ++first_run_[p.group + 1];
     std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
@@ -230,8 +230,8 @@ class LatticeBonds : public Blocks<K, D> {
 
   /// The cells within `radius` spacings of the origin, except the origin.
   [[nodiscard]] static std::vector<typename detail::LatticeCells<D>::Cell> cells_within(double radius) {
-    require(radius >= 1 && radius < 16, "hmps: the effective radius is ", radius,
-            " spacings; on a lattice it must be at least 1 and below 16");
+    detail::require(radius >= 1 && radius < 16, "hmps: the effective radius is ", radius,
+                    " spacings; on a lattice it must be at least 1 and below 16");
     std::vector<typename detail::LatticeCells<D>::Cell> cells;
     const auto reach = static_cast<std::int32_t>(std::floor(radius * (1 + 1e-12)));
     typename detail::LatticeCells<D>::Cell cell;

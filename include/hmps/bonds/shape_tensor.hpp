@@ -36,12 +36,13 @@ struct ShapeTensor {
     for (int d = 0; d < D; ++d) volume *= mean;
     // The determinant relative to that of a sphere with the same trace: 1 for a full neighbourhood, 0.5 for a flat
     // surface, 0 if all bonds lie in a plane or on a line.
-    require(neighbours >= D && detail::is_finite(mean) && mean > 0 && A.determinant() > 1e-4 * volume,
-            "hmps: particle ", particle, " has ", neighbours,
-            neighbours == 1 ? " neighbour that does" : " neighbours that do", " not span the ", D,
-            "D space, so that it has no deformation gradient; remove weakly supported particles, fill the gap, or "
-            "enlarge the "
-            "radius");
+    detail::require(
+        neighbours >= D && detail::is_finite(mean) && mean > 0 && A.determinant() > 1e-4 * volume, "hmps: particle ",
+        particle, " has ", neighbours, neighbours == 1 ? " neighbour that does" : " neighbours that do",
+        " not span the ", D,
+        "D space, so that it has no deformation gradient; remove weakly supported particles, fill the gap, or "
+        "enlarge the "
+        "radius");
     return A.inverse();
   }
 

@@ -119,12 +119,13 @@ bool MetaballContact<S, D, Kernel, Friction>::touch(std::size_t r, const X& x, c
 
 template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 void MetaballContact<S, D, Kernel, Friction>::fail(const ContactReport<S>& report, double time) const {
-  throw StateError(message(
-      "hmps: ", detail::is_nan(time) ? "" : message("at t = ", time, " s "), "the wall of '",
-      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
-      report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
-      " spacings) deep in it or has passed through", report.deep > 1 ? message(", and ", report.deep - 1, " more") : "",
-      "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
+  throw StateError(
+      detail::message("hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
+                      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
+                      report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
+                      " spacings) deep in it or has passed through",
+                      report.deep > 1 ? detail::message(", and ", report.deep - 1, " more") : "",
+                      "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
 
 /// Evaluates all rows, lists those that touch, and reports slaves that walls have lost.
@@ -165,8 +166,8 @@ template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 template <class X, class V, class G, class E>
 ContactReport<S> MetaballContact<S, D, Kernel, Friction>::survey(const X& x, const V& v, const G& F, double dt,
                                                                  const E& execute) {
-  require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
-          " s; give a positive number");
+  detail::require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
+                  " s; give a positive number");
   require_size(x, x.size(), "positions");
   require_size(v, x.size(), "velocities");
   lists_.organs().require_particles(x.size());

@@ -13,10 +13,11 @@ template <class S, int D, Metaball Kernel, FrictionLaw Friction>
 S MetaballContact<S, D, Kernel, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = stiffness.at(settings_.density, dt);
   const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
-  require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
-              largest <= static_cast<double>(std::numeric_limits<S>::max()),
-          "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt, " s, which is beyond the range of the ",
-          8 * sizeof(S), "-bit numbers that contact computes with; check the step and the units, or use double");
+  detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
+                      largest <= static_cast<double>(std::numeric_limits<S>::max()),
+                  "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt,
+                  " s, which is beyond the range of the ", 8 * sizeof(S),
+                  "-bit numbers that contact computes with; check the step and the units, or use double");
   return static_cast<S>(k);
 }
 
@@ -32,11 +33,12 @@ void MetaballContact<S, D, Kernel, Friction>::require_heavy(const Rho& rho, doub
     for (const std::size_t o : {lists_.organs().pairs()[p].first, lists_.organs().pairs()[p].second})
       lists_.organs().for_each_movable(o, [&](Index i) {
         const double own = static_cast<double>(at_particle(rho, i));
-        require(own > least, "hmps: particle ", i, " of '", lists_.organs().organs()[o].name, "' has the density ", own,
-                " kg/m3, which makes its penalty ratio k~ = k dt^2 / rho = ", least / own,
-                "; it must be below 1, but the contact was set for ", settings_.density,
-                " kg/m3: set `ContactSettings::density` to that of the lightest body, or give its pair a softer "
-                "`PairSettings::stiffness`");
+        detail::require(
+            own > least, "hmps: particle ", i, " of '", lists_.organs().organs()[o].name, "' has the density ", own,
+            " kg/m3, which makes its penalty ratio k~ = k dt^2 / rho = ", least / own,
+            "; it must be below 1, but the contact was set for ", settings_.density,
+            " kg/m3: set `ContactSettings::density` to that of the lightest body, or give its pair a softer "
+            "`PairSettings::stiffness`");
       });
   }
 }

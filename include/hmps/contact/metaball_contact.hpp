@@ -69,13 +69,14 @@ class MetaballContact {
   explicit MetaballContact(const ContactSettings& settings)
       : settings_(settings),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
-    require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
-            settings.density, " kg/m3; give a positive number");
+    detail::require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
+                    settings.density, " kg/m3; give a positive number");
     require_friction(settings.friction);
-    require(detail::is_finite(damping()) && damping() >= 0, "hmps: the contact damping is ", damping(),
-            "; give zero or a positive fraction of critical");
-    require(detail::is_finite(settings.margin) && settings.margin > 0, "hmps: the margin of the contact lists is ",
-            settings.margin, " spacings; give a positive number, such as 0.5");
+    detail::require(detail::is_finite(damping()) && damping() >= 0, "hmps: the contact damping is ", damping(),
+                    "; give zero or a positive fraction of critical");
+    detail::require(detail::is_finite(settings.margin) && settings.margin > 0,
+                    "hmps: the margin of the contact lists is ", settings.margin,
+                    " spacings; give a positive number, such as 0.5");
   }
 
   /// Declares an organ and returns its number for `add_pair`. Throws `InputError` if it is empty.
@@ -173,8 +174,8 @@ class MetaballContact {
   /// the force of the second organ on the first. Each particle has the volume l0^D. Throws `InputError` for a pair that
   /// is not there.
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
-    require(pair < lists_.organs().pairs().size(), "hmps: there is no pair ", pair, ", only ",
-            lists_.organs().pairs().size(), " pairs, counted from 0");
+    detail::require(pair < lists_.organs().pairs().size(), "hmps: there is no pair ", pair, ", only ",
+                    lists_.organs().pairs().size(), " pairs, counted from 0");
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const Index r : touching_) {
       const auto& side = lists_.organs().sides()[lists_.active().rows()[r].side];
@@ -241,8 +242,8 @@ class MetaballContact {
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
   static void require_friction(double mu) {
-    require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
-            "; give zero or a positive number");
+    detail::require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
+                    "; give zero or a positive number");
   }
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 

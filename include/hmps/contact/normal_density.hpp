@@ -30,8 +30,8 @@ class NormalDensity {
  public:
   /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
-    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
-            " m; give the particles' positive distance in the reference configuration");
+    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
+                    " m; give the particles' positive distance in the reference configuration");
     find_deepest();
     const double top = in_spacings(deepest_);
     table_.resize(nodes + 1);

@@ -54,13 +54,13 @@ template <class T, int D>
 [[nodiscard]] std::vector<Index> exclude_attached(const VectorView<T, D>& reference, std::span<const Index> slaves,
                                                   std::span<const Index> attachment, double distance) {
   using S = typename VectorView<T, D>::Scalar;
-  require(detail::is_finite(distance) && distance > 0, "hmps: the distance of excluded slaves is ", distance,
-          " m; give a positive length");
+  detail::require(detail::is_finite(distance) && distance > 0, "hmps: the distance of excluded slaves is ", distance,
+                  " m; give a positive length");
   for (const auto list : {slaves, attachment})
     for (const Index i : list)
-      require(i < reference.size(), "hmps: particle ", i, " is excluded from contact but there are only ",
-              reference.size(), " particles");
-  Grid<S, D> grid;
+      detail::require(i < reference.size(), "hmps: particle ", i, " is excluded from contact but there are only ",
+                      reference.size(), " particles");
+  detail::Grid<S, D> grid;
   grid.build(attachment.size(), static_cast<S>(distance), [&](std::size_t k) { return reference[attachment[k]]; });
   std::vector<Index> out;
   for (const Index i : slaves) {

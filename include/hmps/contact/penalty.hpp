@@ -20,22 +20,24 @@ class PenaltyStiffness {
  public:
   /// k = k~ rho / dt^2. Throws `InputError` unless 0 < k~ < 1.
   [[nodiscard]] static PenaltyStiffness ratio(double k_tilde) {
-    require(k_tilde > 0 && k_tilde < 1, "hmps: the penalty ratio k~ is ", k_tilde,
-            "; it must lie between 0 and 1 (contact is unstable from 1 on); the paper has 0.3");
+    detail::require(k_tilde > 0 && k_tilde < 1, "hmps: the penalty ratio k~ is ", k_tilde,
+                    "; it must lie between 0 and 1 (contact is unstable from 1 on); the paper has 0.3");
     return {k_tilde, true};
   }
   /// k in N/m4. Throws `InputError` unless positive and finite.
   [[nodiscard]] static PenaltyStiffness fixed(double k) {
-    require(detail::is_finite(k) && k > 0, "hmps: the penalty coefficient k is ", k, " N/m4; give a positive number");
+    detail::require(detail::is_finite(k) && k > 0, "hmps: the penalty coefficient k is ", k,
+                    " N/m4; give a positive number");
     return {k, false};
   }
 
   /// k in N/m4 for density (kg/m3) and step (s). Throws `InputError` if a fixed k is too stiff.
   [[nodiscard]] double at(double density, double dt) const {
     if (is_ratio_) return value_ * density / (dt * dt);
-    require(value_ * dt * dt < density, "hmps: a penalty of ", value_, " N/m4 makes k~ = ", value_ * dt * dt / density,
-            " at a step of ", dt, " s; it must be below 1: shorten the step below ", std::sqrt(density / value_),
-            " s or soften the penalty");
+    detail::require(value_ * dt * dt < density, "hmps: a penalty of ", value_,
+                    " N/m4 makes k~ = ", value_ * dt * dt / density, " at a step of ", dt,
+                    " s; it must be below 1: shorten the step below ", std::sqrt(density / value_),
+                    " s or soften the penalty");
     return value_;
   }
 

@@ -41,17 +41,17 @@ class SurfaceCorrection {
   template <class T, class Shape>
   SurfaceCorrection(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
-    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
-            " m; give the particles' positive distance in the reference configuration");
+    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
+                    " m; give the particles' positive distance in the reference configuration");
     for (const Index i : skin_) {
-      require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
-              reference.size(), " particles");
+      detail::require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
+                      reference.size(), " particles");
       const Vector<double, D> start = reference[i].template cast<double>();
       const auto offset = offset_of(start, shape, spacing);
-      require(offset.has_value(), "hmps: particle ", i, " at (", start.transpose(),
-              ") cannot be raised to the surface: ",
-              "it is not of the outermost layer, or the shape does not tell which way is out there; leave it out, or "
-              "give about the signed distance in m");
+      detail::require(
+          offset.has_value(), "hmps: particle ", i, " at (", start.transpose(), ") cannot be raised to the surface: ",
+          "it is not of the outermost layer, or the shape does not tell which way is out there; leave it out, or "
+          "give about the signed distance in m");
       offset_.push_back(offset->template cast<S>());
       particles_ = std::max(particles_, std::size_t{i} + 1);
     }
@@ -84,8 +84,9 @@ class SurfaceCorrection {
   void operator()(const VectorView<X, D>& x, const MatrixView<M, D>& F, const VectorView<P, D>& places,
                   const E& execute = {}) const {
     require_size(x, x.size(), "positions");
-    require(x.size() >= particles_, "hmps: particle ", particles_ - 1, " has a corrected surface but the views hold ",
-            x.size(), " particles; give views of all particles, as the reference positions were");
+    detail::require(x.size() >= particles_, "hmps: particle ", particles_ - 1,
+                    " has a corrected surface but the views hold ", x.size(),
+                    " particles; give views of all particles, as the reference positions were");
     require_size(F, x.size(), "deformation gradients");
     require_size(places, x.size(), "places for contact");
     require_apart(places, "places for contact", x, "positions");

@@ -9,9 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
-
-#include "hmps/core/language.hpp"
 
 #if defined(min) || defined(max)
 #error "hmps: min and max are macros: define NOMINMAX before <windows.h> is included"
@@ -35,7 +34,9 @@ struct StateError : Error {
   using Error::Error;
 };
 
-namespace messages {
+}  // namespace hmps
+
+namespace hmps::inline HMPS_ABI::detail {
 
 /// One part of a message: words, a number, or the numbers of an Eigen vector. Refers to it. Non-template functions make
 /// the text, because in a header-only library every place that can throw adds to compile time.
@@ -110,27 +111,25 @@ class MessagePart {
   bool (*component_)(const void*, std::ptrdiff_t, double&) = nullptr;
 };
 
-[[nodiscard]] inline std::string join(std::initializer_list<MessagePart> parts) {
+[[nodiscard]] inline std::string join_parts(std::initializer_list<MessagePart> parts) {
   std::string text;
   for (const MessagePart& part : parts) part.append_to(text);
   return text;
 }
 [[noreturn]] HMPS_COLD inline void throw_input_error(std::initializer_list<MessagePart> parts) {
-  throw InputError(join(parts));
+  throw InputError(join_parts(parts));
 }
-
-}  // namespace messages
 
 /// Joins its arguments into one message. Numbers have nine digits, which distinguish any two floats.
 template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
-  return messages::join({messages::MessagePart(parts)...});
+  return join_parts({MessagePart(parts)...});
 }
 
 /// Throws an `InputError` with the message `parts` unless `condition` holds.
 template <class... Parts>
 void require(bool condition, const Parts&... parts) {
-  if (!condition) messages::throw_input_error({messages::MessagePart(parts)...});
+  if (!condition) throw_input_error({MessagePart(parts)...});
 }
 
-}  // namespace hmps
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -30,9 +30,9 @@ class ParticleSet {
   /// one.
   ParticleSet(std::size_t size, const std::vector<Index>& indices) : member_(size) {
     for (const Index i : indices) {
-      require(i < size, "hmps: a set of particles names particle ", i, " but there are only ", size,
-              "; number them from 0");
-      require(member_[i] == 0, "hmps: a set of particles names particle ", i, " twice; name each once");
+      detail::require(i < size, "hmps: a set of particles names particle ", i, " but there are only ", size,
+                      "; number them from 0");
+      detail::require(member_[i] == 0, "hmps: a set of particles names particle ", i, " twice; name each once");
       member_[i] = 1;
     }
     list();
@@ -66,8 +66,8 @@ class ParticleSet {
 
  private:
   static void require_same_scene(const ParticleSet& a, const ParticleSet& b) {
-    require(a.scene_size() == b.scene_size(), "hmps: two sets of particles are of ", a.scene_size(), " and of ",
-            b.scene_size(), " particles; make both of the same scene");
+    detail::require(a.scene_size() == b.scene_size(), "hmps: two sets of particles are of ", a.scene_size(), " and of ",
+                    b.scene_size(), " particles; make both of the same scene");
   }
   void list() {
     for (std::size_t i = 0; i < member_.size(); ++i)

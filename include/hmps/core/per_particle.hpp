@@ -29,18 +29,18 @@ struct OneParticle {
   /// A parameter of the particle. Throws `InputError` if the view ends before it.
   template <class P>
   [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
-    require(index < parameter.size(), "hmps: the parameters hold ", parameter.size(), " particles, but particle ",
-            index, " asks for its own; give one for each");
+    detail::require(index < parameter.size(), "hmps: the parameters hold ", parameter.size(),
+                    " particles, but particle ", index, " asks for its own; give one for each");
     return static_cast<double>(parameter[index]);
   }
   /// A parameter of the particle's body: `table[body[i]]`. Throws `InputError` for a body that is not in the table.
   template <class P, class B>
   [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
-    require(index < body.size(), "hmps: the bodies hold ", body.size(), " particles, but particle ", index,
-            " asks for its own; give one for each");
+    detail::require(index < body.size(), "hmps: the bodies hold ", body.size(), " particles, but particle ", index,
+                    " asks for its own; give one for each");
     const auto b = static_cast<std::size_t>(body[index]);
-    require(b < table.size(), "hmps: particle ", index, " belongs to body ", +body[index],
-            " but the table of parameters has ", table.size(), " bodies; number them from 0");
+    detail::require(b < table.size(), "hmps: particle ", index, " belongs to body ", +body[index],
+                    " but the table of parameters has ", table.size(), " bodies; number them from 0");
     return static_cast<double>(table[b]);
   }
 };
@@ -88,14 +88,14 @@ template <PerParticle Q>
 template <PerParticle Q>
 void require_positive(const Q& quantity, std::size_t size, const char* name, const char* unit) {
   if constexpr (std::is_arithmetic_v<Q>) {
-    require(detail::is_finite(quantity) && quantity > Q(0), "hmps: the ", name, " is ", quantity, " ", unit,
-            "; it must be positive and finite");
+    detail::require(detail::is_finite(quantity) && quantity > Q(0), "hmps: the ", name, " is ", quantity, " ", unit,
+                    "; it must be positive and finite");
   } else {
     detail::require_quantity(quantity, size, name);
     for (std::size_t i = 0; i < size; ++i) {
       const auto value = static_cast<double>(at_particle(quantity, i));
-      require(detail::is_finite(value) && value > 0, "hmps: the ", name, " of particle ", i, " is ", value, " ", unit,
-              "; it must be positive and finite");
+      detail::require(detail::is_finite(value) && value > 0, "hmps: the ", name, " of particle ", i, " is ", value, " ",
+                      unit, "; it must be positive and finite");
     }
   }
 }

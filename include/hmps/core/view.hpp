@@ -124,8 +124,8 @@ requires(detail::Elements<R> && sizeof...(More) >= 1 && (detail::Elements<More> 
     [[nodiscard]] auto vectors(R& first, More&... more) {
   const std::span x(first);
   using T = typename decltype(x)::element_type;
-  ((require(std::span(more).size() == x.size(), "hmps: the component arrays of a vector view have ", x.size(), " and ",
-            std::span(more).size(), " elements; give arrays of one size")),
+  ((detail::require(std::span(more).size() == x.size(), "hmps: the component arrays of a vector view have ", x.size(),
+                    " and ", std::span(more).size(), " elements; give arrays of one size")),
    ...);
   constexpr int D = 1 + static_cast<int>(sizeof...(More));
   return VectorView<T, D>({x.data(), std::span(more).data()...}, x.size(), sizeof(T));

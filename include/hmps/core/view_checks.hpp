@@ -26,20 +26,22 @@ void require_view(const View<T, N>& view, const char* name) {
     null = null || view.base(c) == nullptr;
     bits |= reinterpret_cast<std::uintptr_t>(view.base(c));
   }
-  require(!null, "hmps: the view of ", name, " has ", view.size(), " particles at the address null; give it memory");
-  require(bits % alignof(T) == 0, "hmps: the view of ", name, " is not aligned: addresses and stride (", stride,
-          " bytes) must be multiples of ", alignof(T), "; take the members of packed structs out first");
+  detail::require(!null, "hmps: the view of ", name, " has ", view.size(),
+                  " particles at the address null; give it memory");
+  detail::require(bits % alignof(T) == 0, "hmps: the view of ", name, " is not aligned: addresses and stride (", stride,
+                  " bytes) must be multiples of ", alignof(T), "; take the members of packed structs out first");
   if constexpr (!std::is_const_v<T>)
-    require(view.size() == 1 || apart >= sizeof(T), "hmps: the view of ", name, " is written, but its stride of ",
-            stride, " bytes puts several particles in one place; a scalar takes ", sizeof(T), " bytes");
+    detail::require(view.size() == 1 || apart >= sizeof(T), "hmps: the view of ", name,
+                    " is written, but its stride of ", stride,
+                    " bytes puts several particles in one place; a scalar takes ", sizeof(T), " bytes");
 }
 
 /// Throws `InputError` unless `view`, called `name` in the message, is valid (`require_view`) and holds `size`
 /// particles.
 template <class T, int N>
 void require_size(const View<T, N>& view, std::size_t size, const char* name) {
-  require(view.size() == size, "hmps: the view of ", name, " holds ", view.size(), " particles but ", size,
-          " are needed; give every view of one call the same particles");
+  detail::require(view.size() == size, "hmps: the view of ", name, " holds ", view.size(), " particles but ", size,
+                  " are needed; give every view of one call the same particles");
   require_view(view, name);
 }
 
@@ -47,8 +49,9 @@ void require_size(const View<T, N>& view, std::size_t size, const char* name) {
 /// is read. Does not detect views that overlap elsewhere.
 template <class T, int N, class U, int M>
 void require_apart(const View<T, N>& written, const char* name, const View<U, M>& other, const char* other_name) {
-  require(written.size() == 0 || static_cast<const void*>(written.base(0)) != static_cast<const void*>(other.base(0)),
-          "hmps: the views of ", name, " and ", other_name, " are the same memory; give each an array of its own");
+  detail::require(
+      written.size() == 0 || static_cast<const void*>(written.base(0)) != static_cast<const void*>(other.base(0)),
+      "hmps: the views of ", name, " and ", other_name, " are the same memory; give each an array of its own");
 }
 
 /// Throws `InputError` unless `view`, called `name`, is valid (`require_view`) and every particle is finite; names the
@@ -58,8 +61,8 @@ void require_finite(const View<T, N>& view, const char* name) {
   require_view(view, name);
   for (std::size_t i = 0; i < view.size(); ++i)
     for (int c = 0; c < N; ++c)
-      require(detail::is_finite(view(i, c)), "hmps: component ", c, " of ", name, " of particle ", i, " is ",
-              view(i, c), "; every component must be a finite number");
+      detail::require(detail::is_finite(view(i, c)), "hmps: component ", c, " of ", name, " of particle ", i, " is ",
+                      view(i, c), "; every component must be a finite number");
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -72,7 +72,8 @@ template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
     return a;
   };
   Sum all = reduce(F.size(), Sum{}, one, merge, execute);
-  require(all.count > 0, "hmps: the statistics of det F were asked for no particle; `counts` must hold for some");
+  detail::require(all.count > 0,
+                  "hmps: the statistics of det F were asked for no particle; `counts` must hold for some");
   all.mean /= static_cast<double>(all.count);
   all.share_within = static_cast<double>(all.within) / static_cast<double>(all.count);
   return all;

@@ -24,10 +24,10 @@ struct OpenMP {
 
   template <class Body>
   void operator()(std::size_t n, Body&& body) const {
-    require(threads >= 1, "hmps: the number of OpenMP threads is ", threads, "; it must be at least 1");
-    require(threads <= most_threads(), "hmps: the number of OpenMP threads is ", threads, ", but there are ",
-            omp_get_num_procs(), " processors, for which ", most_threads(),
-            " are the most that are started: more only wait for each other; look at OMP_NUM_THREADS");
+    detail::require(threads >= 1, "hmps: the number of OpenMP threads is ", threads, "; it must be at least 1");
+    detail::require(threads <= most_threads(), "hmps: the number of OpenMP threads is ", threads, ", but there are ",
+                    omp_get_num_procs(), " processors, for which ", most_threads(),
+                    " are the most that are started: more only wait for each other; look at OMP_NUM_THREADS");
     std::exception_ptr failure;
     const auto end = static_cast<std::ptrdiff_t>(n);
 #pragma omp parallel for num_threads(threads) schedule(static)

@@ -67,8 +67,9 @@ class ParticleState : public OneParticle {
 
   /// theta of `MeanDilatation`. Throws `InputError` if the force has no term of the mean dilatation.
   [[nodiscard]] double mean_dilatation() const {
-    require(!theta_.empty(),
-            "hmps: an energy asks for the mean dilatation in a force without such a term; give it pressure(...)");
+    detail::require(
+        !theta_.empty(),
+        "hmps: an energy asks for the mean dilatation in a force without such a term; give it pressure(...)");
     return theta_[index];
   }
 

@@ -66,9 +66,9 @@ class InternalForce {
   void restrict_to(Moves&& moves) {
     bonds_ = &bonds();
     if constexpr (requires { moves.scene_size(); })
-      require(moves.scene_size() == bonds_->size(), "hmps: the set of particles that move is one of ",
-              moves.scene_size(), " particles, the body has ", bonds_->size(),
-              "; make it for all particles of the body");
+      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set of particles that move is one of ",
+                      moves.scene_size(), " particles, the body has ", bonds_->size(),
+                      "; make it for all particles of the body");
     restricted_.restrict_to(*bonds_, moves, Sweeps::means);
   }
 

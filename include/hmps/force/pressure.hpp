@@ -39,8 +39,8 @@ class Pressure {
   template <Bonds B>
   requires(B::dimension == D) Pressure(const B& bonds, const ParticleSet& loaded)
       : size_(bonds.size()), particles_(loaded.indices()), area_(particles_.size(), Vector<double, D>::Zero()) {
-    require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is of ", loaded.scene_size(),
-            " particles but the bonds are of ", size_, "; make both of the same scene");
+    detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is of ",
+                    loaded.scene_size(), " particles but the bonds are of ", size_, "; make both of the same scene");
     double largest = 0, least = 0;  // |b| of a face is of the order of one over the length of a bond
     for (std::size_t k = 0; k < particles_.size(); ++k) {
       const std::size_t i = particles_[k];
@@ -52,8 +52,8 @@ class Pressure {
       });
       largest = std::max(largest, area_[k].norm());
     }
-    require(largest > least, "hmps: none of the ", particles_.size(),
-            " particles under pressure is near a surface; name those of the outermost layers");
+    detail::require(largest > least, "hmps: none of the ", particles_.size(),
+                    " particles under pressure is near a surface; name those of the outermost layers");
   }
 
   /// Adds the force density (N/m3) of the pressure `p` (Pa, positive if it pushes inwards) at the deformation gradients
@@ -63,11 +63,12 @@ class Pressure {
   void add(const MatrixView<M, D>& F, const VectorView<T, D>& f, double p, const E& execute = {}) const {
     require_size(F, size_, "deformation gradients");
     require_size(f, size_, "force densities");
-    require(detail::is_finite(p), "hmps: the pressure is ", p, " Pa; give a finite number");
+    detail::require(detail::is_finite(p), "hmps: the pressure is ", p, " Pa; give a finite number");
     for (const Index i : particles_)
-      require(!F[i].isZero(0), "hmps: the deformation gradient of particle ", i,
-              " is zero, so that no pressure acts there: evaluate the force with `record(F)` among its terms, or "
-              "`deformation_gradient`, before the pressure");
+      detail::require(
+          !F[i].isZero(0), "hmps: the deformation gradient of particle ", i,
+          " is zero, so that no pressure acts there: evaluate the force with `record(F)` among its terms, or "
+          "`deformation_gradient`, before the pressure");
     execute(particles_.size(), [&](std::size_t k) {
       const Index i = particles_[k];
       const Matrix<double, D> gradient = F[i].template cast<double>();

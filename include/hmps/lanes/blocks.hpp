@@ -68,8 +68,8 @@ class Blocks : public detail::Anchored {
   /// sweeps: `particle(size() / 2)`. From now on `common` (m) is subtracted instead, so that parts of a body, each on a
   /// machine of its own, round as the whole does. Throws `InputError` if it is not finite.
   void subtract_displacement(const Vector<double, D>& common) {
-    require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
-            ") m; give finite numbers");
+    detail::require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
+                    ") m; give finite numbers");
     common_ = common;
   }
   /// What `subtract_displacement` was given, if it was called.

@@ -41,8 +41,8 @@ struct Continued {
   /// Throws `InputError` unless the law is valid and 0 < `j_min` < 1.
   void validate() const requires std::is_arithmetic_v<P> {
     law.validate();
-    require(detail::is_finite(j_min) && j_min > P(0) && j_min < P(1), "hmps: j_min of Continued is ", j_min,
-            "; it must lie between 0 and 1, for example 0.2");
+    detail::require(detail::is_finite(j_min) && j_min > P(0) && j_min < P(1), "hmps: j_min of Continued is ", j_min,
+                    "; it must lie between 0 and 1, for example 0.2");
   }
 
   /// dW/dF in Pa at any deformation gradient `F`.

@@ -109,8 +109,8 @@ template <class Law, class P>
   static_assert(
       requires { law.bulk_modulus() + law.shear_modulus(); },
       "hmps: the sound speed needs a law with bulk_modulus() and shear_modulus()");
-  require(detail::is_finite(density) && density > P(0), "hmps: the density is ", density,
-          " kg/m3; it must be positive (soft tissue: about 1000)");
+  detail::require(detail::is_finite(density) && density > P(0), "hmps: the density is ", density,
+                  " kg/m3; it must be positive (soft tissue: about 1000)");
   return std::sqrt((law.bulk_modulus() + law.shear_modulus() * P(4) / P(3)) / density);
 }
 

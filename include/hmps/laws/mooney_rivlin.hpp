@@ -68,11 +68,11 @@ struct MooneyRivlin {
                             "give half of the bulk modulus, for soft tissue about 1e6 Pa");
     const P K = bulk_modulus(), G = shear_modulus();
     // A ratio of zero itself, K = 2 G / 3, may come out of rounding.
-    require(P(3) * K >= P(2) * G * (P(1) - P(16) * std::numeric_limits<P>::epsilon()),
-            "hmps: the volumetric constant D1 of MooneyRivlin is ", d1, " Pa, so that the bulk modulus 2 D1 is ", K,
-            " Pa beside a shear modulus of ", G, " Pa, and Poisson's ratio ",
-            (P(3) * K - P(2) * G) / (P(6) * K + P(2) * G),
-            "; give D1 in Pa, half of the bulk modulus (for soft tissue about 1e6 Pa), or use from_young_poisson");
+    detail::require(
+        P(3) * K >= P(2) * G * (P(1) - P(16) * std::numeric_limits<P>::epsilon()),
+        "hmps: the volumetric constant D1 of MooneyRivlin is ", d1, " Pa, so that the bulk modulus 2 D1 is ", K,
+        " Pa beside a shear modulus of ", G, " Pa, and Poisson's ratio ", (P(3) * K - P(2) * G) / (P(6) * K + P(2) * G),
+        "; give D1 in Pa, half of the bulk modulus (for soft tissue about 1e6 Pa), or use from_young_poisson");
   }
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F and J = det F > 0.

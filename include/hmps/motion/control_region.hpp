@@ -33,17 +33,17 @@ class ControlRegion {
   /// position that is not finite.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
-    require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
+    detail::require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
     require_view(reference, "reference positions");
     std::vector<Index> sorted = particles_;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k < sorted.size(); ++k) {
-      require(sorted[k] < reference.size(), "hmps: a control region names particle ", sorted[k], " but there are only ",
-              reference.size(), "; give indices into the view of reference positions");
-      require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
-              " twice; name each once");
-      require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k], " is (",
-              reference[sorted[k]].transpose(), "); give finite metres");
+      detail::require(sorted[k] < reference.size(), "hmps: a control region names particle ", sorted[k],
+                      " but there are only ", reference.size(), "; give indices into the view of reference positions");
+      detail::require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
+                      " twice; name each once");
+      detail::require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k],
+                      " is (", reference[sorted[k]].transpose(), "); give finite metres");
     }
   }
 
@@ -53,8 +53,8 @@ class ControlRegion {
   /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` if `k` is out of
   /// range.
   [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
-    require(k < particles_.size(), "hmps: the place of particle ", k, " of a control region is asked for, but it has ",
-            particles_.size(), " particles, counted from 0");
+    detail::require(k < particles_.size(), "hmps: the place of particle ", k,
+                    " of a control region is asked for, but it has ", particles_.size(), " particles, counted from 0");
     return motion_(t)(reference_[particles_[k]].template cast<double>());
   }
 
@@ -68,12 +68,12 @@ class ControlRegion {
   template <class X, class V, Executor E = Serial>
   void prescribe(double t_next, double dt, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute = {},
                  double speed_limit = std::numeric_limits<double>::max()) const {
-    require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
-            " s; give a positive step");
-    require(detail::is_finite(t_next), "hmps: a control region is moved to the time ", t_next,
-            " s; give finite seconds");
-    require(!detail::is_nan(speed_limit), "hmps: the speed limit of a control region is ", speed_limit,
-            " m/s; give a positive number, or leave it out");
+    detail::require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
+                    " s; give a positive step");
+    detail::require(detail::is_finite(t_next), "hmps: a control region is moved to the time ", t_next,
+                    " s; give finite seconds");
+    detail::require(!detail::is_nan(speed_limit), "hmps: the speed limit of a control region is ", speed_limit,
+                    " m/s; give a positive number, or leave it out");
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
     const auto pose = motion_(t_next);
@@ -84,9 +84,9 @@ class ControlRegion {
       const Vector<double, D> rate = (target - x[i].template cast<double>()) * per_step;
       const double squared = rate.squaredNorm();
       if (!detail::is_finite(squared) || squared > largest)
-        throw StateError(message("hmps: a control region asks particle ", i, " for ", rate.norm(), " m/s to be at (",
-                                 target.transpose(), ") at ", t_next,
-                                 " s; check its keyframes, or place the region where the run starts"));
+        throw StateError(detail::message("hmps: a control region asks particle ", i, " for ", rate.norm(),
+                                         " m/s to be at (", target.transpose(), ") at ", t_next,
+                                         " s; check its keyframes, or place the region where the run starts"));
       v.set(i, rate);
     });
   }

@@ -44,8 +44,8 @@ struct Table {
       std::string all;
       for (std::size_t k = 0; k < std::min(names.size(), most); ++k)
         all += (k == 0 ? "" : ", ") + detail::printable(names[k]);
-      if (names.size() > most) all += message(" and ", names.size() - most, " more");
-      throw InputError(message("hmps: ", source, " has no column '", name, "'; it has ", all));
+      if (names.size() > most) all += detail::message(" and ", names.size() - most, " more");
+      throw InputError(detail::message("hmps: ", source, " has no column '", name, "'; it has ", all));
     }
     return static_cast<std::size_t>(found - names.begin());
   }
@@ -80,7 +80,7 @@ void for_each_cell(std::string_view line, Use&& use) {
     line = detail::trimmed(line.substr(0, line.find('#')));
     if (line.empty()) continue;
     const auto fail = [&](const auto&... parts) {
-      throw InputError(message("hmps: ", table.source, ", line ", line_number, ": ", parts...));
+      throw InputError(detail::message("hmps: ", table.source, ", line ", line_number, ": ", parts...));
     };
     if (table.names.empty()) {
       detail::for_each_cell(line, [&](std::string_view name) {
@@ -107,7 +107,7 @@ void for_each_cell(std::string_view line, Use&& use) {
            " columns; separate cells by commas");
     table.lines.push_back(line_number);
   }
-  require(!table.names.empty(), "hmps: ", table.source, " is empty; its first line must name the columns");
+  detail::require(!table.names.empty(), "hmps: ", table.source, " is empty; its first line must name the columns");
   return table;
 }
 
@@ -123,13 +123,13 @@ template <std::size_t N>
   const std::size_t clock = table.column(time);
   std::array<std::size_t, N> columns{};
   for (std::size_t c = 0; c < N; ++c) columns[c] = table.column(names[c]);
-  require(table.rows() > 0, "hmps: ", table.source, " has a header but no row; give at least one keyframe");
+  detail::require(table.rows() > 0, "hmps: ", table.source, " has a header but no row; give at least one keyframe");
   std::vector<Keyframe<static_cast<int>(N)>> keys(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row) {
     keys[row].time = table(row, clock);
-    require(row == 0 || keys[row - 1].time < keys[row].time, "hmps: ", table.source, ", line ", table.lines[row],
-            ": the time ", keys[row].time, " s does not follow ", row == 0 ? 0.0 : keys[row - 1].time,
-            " s; sort the rows and give each time once");
+    detail::require(row == 0 || keys[row - 1].time < keys[row].time, "hmps: ", table.source, ", line ",
+                    table.lines[row], ": the time ", keys[row].time, " s does not follow ",
+                    row == 0 ? 0.0 : keys[row - 1].time, " s; sort the rows and give each time once");
     for (std::size_t c = 0; c < N; ++c) {
       if constexpr (N == 1)
         keys[row].value = scale * table(row, columns[c]);

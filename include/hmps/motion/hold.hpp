@@ -30,10 +30,10 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 template <class V, int D>
 void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
   require_size(v, held.scene_size(), "velocities");
-  require(0 <= c && c < D, "hmps: component ", c, " of a velocity is to be held, but there are the components 0 to ",
-          D - 1);
-  require(detail::is_finite(velocity), "hmps: component ", c, " of a velocity is to be held at ", velocity,
-          " m/s; give a finite number");
+  detail::require(0 <= c && c < D, "hmps: component ", c,
+                  " of a velocity is to be held, but there are the components 0 to ", D - 1);
+  detail::require(detail::is_finite(velocity), "hmps: component ", c, " of a velocity is to be held at ", velocity,
+                  " m/s; give a finite number");
   using S = typename VectorView<V, D>::Scalar;
   for (const Index i : held) v(i, c) = static_cast<S>(velocity);
 }
@@ -46,8 +46,8 @@ void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen:
   require_size(v, held.scene_size(), "velocities");
   const Vector<double, D> given = normal.template cast<double>();
   const double length = given.norm();
-  require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (", given.transpose(),
-          "); give a direction of finite length");
+  detail::require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (", given.transpose(),
+                  "); give a direction of finite length");
   const Vector<double, D> n = given / length;
   for (const Index i : held) {
     const Vector<double, D> own = v[i].template cast<double>();

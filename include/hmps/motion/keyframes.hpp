@@ -40,16 +40,16 @@ class Keyframes {
   /// Takes keyframes with strictly increasing times. Throws `InputError` if there is none, and at the first one,
   /// counted from 0, that is not finite or out of order.
   explicit Keyframes(std::vector<Keyframe<N>> keys) : keys_(std::move(keys)), slopes_(keys_.size(), zero()) {
-    require(!keys_.empty(), "hmps: a track has no keyframe; give at least one time and value");
+    detail::require(!keys_.empty(), "hmps: a track has no keyframe; give at least one time and value");
     for (std::size_t k = 0; k < keys_.size(); ++k) {
-      require(detail::is_finite(keys_[k].time), "hmps: keyframe ", k, " has the time ", keys_[k].time,
-              "; give finite seconds");
+      detail::require(detail::is_finite(keys_[k].time), "hmps: keyframe ", k, " has the time ", keys_[k].time,
+                      "; give finite seconds");
       for (int c = 0; c < N; ++c)
-        require(detail::is_finite(at(keys_[k].value, c)), "hmps: component ", c, " of keyframe ", k, " at ",
-                keys_[k].time, " s is ", at(keys_[k].value, c), "; give finite values");
-      require(k == 0 || keys_[k - 1].time < keys_[k].time, "hmps: keyframe ", k, " at ", keys_[k].time,
-              " s follows one at ", k == 0 ? 0.0 : keys_[k - 1].time,
-              " s; sort the keyframes by time and give each time once");
+        detail::require(detail::is_finite(at(keys_[k].value, c)), "hmps: component ", c, " of keyframe ", k, " at ",
+                        keys_[k].time, " s is ", at(keys_[k].value, c), "; give finite values");
+      detail::require(k == 0 || keys_[k - 1].time < keys_[k].time, "hmps: keyframe ", k, " at ", keys_[k].time,
+                      " s follows one at ", k == 0 ? 0.0 : keys_[k - 1].time,
+                      " s; sort the keyframes by time and give each time once");
     }
     for (std::size_t k = 1; k + 1 < keys_.size(); ++k)
       for (int c = 0; c < N; ++c) at(slopes_[k], c) = slope(k, c);
@@ -99,7 +99,7 @@ class Keyframes {
       return value[c];
   }
   static void require_time(double time) {
-    require(!detail::is_nan(time), "hmps: a track is asked for its value at the time NaN; give seconds");
+    detail::require(!detail::is_nan(time), "hmps: a track is asked for its value at the time NaN; give seconds");
   }
   [[nodiscard]] std::size_t piece(double time) const {
     const auto above = std::upper_bound(keys_.begin(), keys_.end(), time,

@@ -76,9 +76,10 @@ template <class Real = float, class T>
   require_view(view, name.c_str());
   if constexpr (std::is_integral_v<std::remove_const_t<T>>) {
     for (std::size_t i = 0; i < view.size(); ++i)
-      require(std::in_range<std::int32_t>(static_cast<std::int64_t>(view[i])) && std::in_range<std::int64_t>(+view[i]),
-              "hmps: the field ", name, " is ", +view[i], " at particle ", i,
-              ", which 32 bits do not hold; give it as a floating-point number");
+      detail::require(
+          std::in_range<std::int32_t>(static_cast<std::int64_t>(view[i])) && std::in_range<std::int64_t>(+view[i]),
+          "hmps: the field ", name, " is ", +view[i], " at particle ", i,
+          ", which 32 bits do not hold; give it as a floating-point number");
     return detail::collect<std::int32_t>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });
   } else {
     return detail::collect<Real>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });

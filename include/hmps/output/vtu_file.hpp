@@ -135,13 +135,13 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
                                           const VtuSettings& settings = {}) {
   const std::size_t size = positions.size();
   const std::size_t cells = settings.triangles.empty() ? size : settings.triangles.size();
-  require(positions.components == 3, "hmps: the positions of a VTU file have ", positions.components,
-          " components; give three");
-  require(std::max(size, 3 * settings.triangles.size()) <= std::numeric_limits<std::int32_t>::max(),
-          "hmps: a VTU file of ", size, " points and ", settings.triangles.size(),
-          " triangles needs indices of more than 32 bits; write it in parts");
-  require(detail::is_finite(settings.time), "hmps: the time of a VTU file is ", settings.time,
-          " s; give a finite number");
+  detail::require(positions.components == 3, "hmps: the positions of a VTU file have ", positions.components,
+                  " components; give three");
+  detail::require(std::max(size, 3 * settings.triangles.size()) <= std::numeric_limits<std::int32_t>::max(),
+                  "hmps: a VTU file of ", size, " points and ", settings.triangles.size(),
+                  " triangles needs indices of more than 32 bits; write it in parts");
+  detail::require(detail::is_finite(settings.time), "hmps: the time of a VTU file is ", settings.time,
+                  " s; give a finite number");
   detail::require_fields(size, fields);
   detail::VtkArrays arrays;
   arrays.head =
@@ -151,10 +151,11 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
       "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
       detail::shortest(settings.time) + "</DataArray>\n";
   for (const VtkNames& names : settings.names) {
-    require(std::any_of(fields.begin(), fields.end(),
-                        [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; }),
-            "hmps: a VTU file has names for the values of ", names.field,
-            ", which is no field of whole numbers in it; name a field that is written too");
+    detail::require(
+        std::any_of(fields.begin(), fields.end(),
+                    [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; }),
+        "hmps: a VTU file has names for the values of ", names.field,
+        ", which is no field of whole numbers in it; name a field that is written too");
     arrays.head += detail::vtk_words(names);
   }
   arrays.head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(size) + "\" NumberOfCells=\"" +
@@ -207,7 +208,8 @@ class VtuSeries {
   /// Begins the collection `path` (.pvd). Throws `InputError` where its folder cannot be made or written to, and for a
   /// name that does not end in .pvd.
   explicit VtuSeries(std::filesystem::path path) : path_(std::move(path)) {
-    require(path_.extension() == ".pvd", "hmps: ", path_.string(), " is to be a ParaView collection; end it in .pvd");
+    detail::require(path_.extension() == ".pvd", "hmps: ", path_.string(),
+                    " is to be a ParaView collection; end it in .pvd");
     std::error_code problem;
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), problem);
     detail::replace_file(path_, pvd_text(frames_));

@@ -58,14 +58,14 @@ class CarriedSurface {
       const VectorView<T, D>& reference, const VectorView<P, D>& points, double spacing,
       const Belongs& belongs = [](std::size_t) { return true; }, const E& execute = {})
       : particles_(reference.size()) {
-    require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a carried surface is ", spacing,
-            " m; give the particles' positive distance in the reference configuration");
-    require(reference.size() > 0, "hmps: a carried surface was given no particles");
+    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a carried surface is ", spacing,
+                    " m; give the particles' positive distance in the reference configuration");
+    detail::require(reference.size() > 0, "hmps: a carried surface was given no particles");
     require_view(points, "points");
     for (std::size_t p = 0; p < points.size(); ++p)
       for (int c = 0; c < D; ++c)
-        require(detail::is_finite(points(p, c)), "hmps: component ", c, " of the place of point ", p,
-                " of a carried surface is ", points(p, c), "; every component must be a finite number");
+        detail::require(detail::is_finite(points(p, c)), "hmps: component ", c, " of the place of point ", p,
+                        " of a carried surface is ", points(p, c), "; every component must be a finite number");
     const FixedRadiusSearch<T, D> search(reference);
     std::vector<std::vector<Share>> shares(points.size());
     execute(points.size(), [&](std::size_t p) {
@@ -141,11 +141,12 @@ class CarriedSurface {
       std::vector<Share> shares;
       if (solve(search.points(), point, spacing, radius, found, shares)) return shares;
     }
-    throw InputError(message("hmps: point ", p, " of a carried surface, at (", point.transpose(),
-                             "), lies further than 8 spacings of ", spacing,
-                             " m from particles that span space; check that surface and particles are of one body in "
-                             "one unit, or give a smaller spacing: a wall of one layer carries no surface, nor does a "
-                             "part that remove_weak took away"));
+    throw InputError(
+        detail::message("hmps: point ", p, " of a carried surface, at (", point.transpose(),
+                        "), lies further than 8 spacings of ", spacing,
+                        " m from particles that span space; check that surface and particles are of one body in "
+                        "one unit, or give a smaller spacing: a wall of one layer carries no surface, nor does a "
+                        "part that remove_weak took away"));
   }
 
   /// The shares of the particles `found` within `radius`; false where the radius should be larger.

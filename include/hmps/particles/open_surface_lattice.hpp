@@ -115,9 +115,10 @@ template <class S, Executor E = Serial>
   for (const std::size_t count : doubtful) result.doubtful_sites += count;
   result.points = detail::joined<S, 3>(slabs, execute);
   // A flat sheet has a winding number of one half on itself, so that rounding may classify its sites as inside.
-  require(std::any_of(sure.begin(), sure.end(), [](std::size_t count) { return count > 0; }), "hmps: ", mesh.source,
-          ", which is open at ", result.open_edges, " edges, surely encloses no lattice site of spacing ", spacing,
-          " m (winding number 0.75 or more): it is too open, or the spacing is too large");
+  detail::require(std::any_of(sure.begin(), sure.end(), [](std::size_t count) { return count > 0; }),
+                  "hmps: ", mesh.source, ", which is open at ", result.open_edges,
+                  " edges, surely encloses no lattice site of spacing ", spacing,
+                  " m (winding number 0.75 or more): it is too open, or the spacing is too large");
   return result;
 }
 

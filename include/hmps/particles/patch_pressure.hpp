@@ -26,8 +26,8 @@ namespace hmps::inline HMPS_ABI {
 template <class T, class S, Executor E = Serial>
 [[nodiscard]] std::vector<Index> particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
                                                 double distance, const E& execute = {}) {
-  require(detail::is_finite(distance) && distance > 0, "hmps: particles within ", distance,
-          " m of a patch are asked for; give a positive distance, such as the spacing");
+  detail::require(detail::is_finite(distance) && distance > 0, "hmps: particles within ", distance,
+                  " m of a patch are asked for; give a positive distance, such as the spacing");
   require_finite(points, "the position");
   const TriangleTree tree(patch);
   std::vector<char> is_near(points.size(), 0);
@@ -36,7 +36,7 @@ template <class T, class S, Executor E = Serial>
   std::vector<Index> found;
   for (std::size_t i = 0; i < is_near.size(); ++i)
     if (is_near[i] != 0) found.push_back(static_cast<Index>(i));
-  require(
+  detail::require(
       !found.empty(), "hmps: no particle lies within ", distance, " m of ", patch.source,
       "; check that both are in metres, and that the body has particles there: a part thinner than a spacing or two "
       "has none, or loses them to remove_weak; else give a larger distance");
@@ -78,7 +78,8 @@ class PatchPressure {
   void operator()(const VectorView<X, 3>& x, double pressure, const Vol& volume, const VectorView<F, 3>& f) const {
     require_size(f, x.size(), "force densities");
     require_apart(f, "force densities", x, "positions");
-    require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure, " Pa; give a finite number");
+    detail::require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure,
+                    " Pa; give a finite number");
     require_positive(volume, x.size(), "volume", "m3");
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());

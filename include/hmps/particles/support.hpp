@@ -175,9 +175,9 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
     if (present[i]) left.push_back(static_cast<Index>(i));
   if (left.empty() && n > 0) {
     const std::string hint = detail::spacing_hint(points, settings.spacing);
-    throw InputError(message("hmps: remove_weak leaves none of ", n,
-                             " particles: each is weakly supported, or of a small piece",
-                             hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));
+    throw InputError(detail::message(
+        "hmps: remove_weak leaves none of ", n, " particles: each is weakly supported, or of a small piece",
+        hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));
   }
   return left;
 }

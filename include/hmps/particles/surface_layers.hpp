@@ -83,8 +83,8 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
                                            const E& execute = {}) {
   static_assert(D == 2 || D == 3, "hmps: layers are found in 2 or 3 dimensions");
   using S = typename VectorView<T, D>::Scalar;
-  require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of surface layers is ", spacing,
-          " m; give the particles' positive distance in the reference configuration");
+  detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of surface layers is ", spacing,
+                  " m; give the particles' positive distance in the reference configuration");
   // Every direction lies within 3.5 degrees (2D: 1) of one of these.
   const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
   const double limit = std::cos(56 * std::numbers::pi / 180);

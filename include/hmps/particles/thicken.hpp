@@ -128,8 +128,8 @@ template <class T, int D, class Allowed = AllowEverywhere>
   using S = typename VectorView<T, D>::Scalar;
   using Map = detail::SiteMap<D>;
   detail::validate(settings);
-  require(settings.radius_ratio < 16, "hmps: the effective radius is ", settings.radius_ratio,
-          " spacings; on a lattice it must be below 16");
+  detail::require(settings.radius_ratio < 16, "hmps: the effective radius is ", settings.radius_ratio,
+                  " spacings; on a lattice it must be below 16");
   require_finite(points, "the position");
   std::vector<Vector<S, D>> added;
   if (points.size() == 0) return added;

@@ -160,8 +160,8 @@ class FixedRadiusSearch {
 template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const FixedRadiusSearch<T, D>& search,
                                             typename VectorView<T, D>::Scalar radius, const E& execute = {}) {
-  require(detail::is_finite(radius) && radius > 0, "hmps: the search radius is ", radius,
-          "; it must be a positive number of metres");
+  detail::require(detail::is_finite(radius) && radius > 0, "hmps: the search radius is ", radius,
+                  "; it must be a positive number of metres");
   const VectorView<T, D>& points = search.points();
   const std::size_t n = points.size();
   std::vector<std::vector<Index>> above(n);
@@ -170,8 +170,8 @@ template <class T, int D, Executor E = Serial>
     search(points[i], radius, found);
     std::erase_if(found, [i](Index j) { return j <= i; });
     for (Index j : found)
-      require((points[j] - points[i]).squaredNorm() > 0, "hmps: particles ", i, " and ", j,
-              " lie at the same place; remove one of them");
+      detail::require((points[j] - points[i]).squaredNorm() > 0, "hmps: particles ", i, " and ", j,
+                      " lie at the same place; remove one of them");
   });
   NeighbourList list;
   list.offset.assign(n + 1, 0);
@@ -195,8 +195,8 @@ template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const VectorView<T, D>& points, typename VectorView<T, D>::Scalar radius,
                                             const E& execute = {}) {
   using Scalar = typename VectorView<T, D>::Scalar;
-  require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
-          "; it must be a positive number of metres");
+  detail::require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
+                  "; it must be a positive number of metres");
   return find_neighbours(FixedRadiusSearch<T, D>(points), radius, execute);
 }
 

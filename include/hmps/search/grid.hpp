@@ -13,7 +13,7 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
-namespace hmps::inline HMPS_ABI {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// A uniform cell list: finds all points within a radius of a place. Meant for searches that are repeated while the
 /// points move. Building takes linear time. For particles about one spacing apart it is 5 to 20 times as fast as a k-d
@@ -28,8 +28,7 @@ class Grid {
   /// `InputError` if a point or the extent of all points is not finite, and if the edge is not positive.
   template <class Position>
   void build(std::size_t n, S cell, Position&& position) {
-    require(detail::is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell,
-            " m; give a positive radius");
+    require(is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell, " m; give a positive radius");
     require(n < std::numeric_limits<Index>::max(), "hmps: ", n, " points are more than a 32-bit index can number");
     raw_.resize(n);
     lowest_ = Point::Constant(std::numeric_limits<S>::max());
@@ -37,7 +36,7 @@ class Grid {
     for (std::size_t k = 0; k < n; ++k) {
       const Point p = position(k);
       for (int c = 0; c < D; ++c)
-        require(detail::is_finite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
+        require(is_finite(p[c]), "hmps: component ", c, " of the position of point ", k, " is ", p[c],
                 "; every component must be a finite number");
       raw_[k] = p;
       lowest_ = lowest_.cwiseMin(p);
@@ -52,8 +51,8 @@ class Grid {
       return;
     }
     const Point extent = highest - lowest_;
-    require(detail::all_finite(extent), "hmps: the points of a search grid span more than ",
-            std::numeric_limits<S>::max(), " m; look for positions that are no lengths in metres");
+    require(all_finite(extent), "hmps: the points of a search grid span more than ", std::numeric_limits<S>::max(),
+            " m; look for positions that are no lengths in metres");
     double count = 0;
     for (const double most = 4. * static_cast<double>(n) + 64;; cell *= S(1.26)) {
       count = 1;
@@ -91,7 +90,7 @@ class Grid {
     std::array<std::size_t, 3> from{}, to{};
     for (int c = 0; c < D; ++c) {
       const auto d = static_cast<std::size_t>(c);
-      if (detail::is_nan(centre[c]) || !(centre[c] + radius >= lowest_[c])) return;
+      if (is_nan(centre[c]) || !(centre[c] + radius >= lowest_[c])) return;
       if ((centre[c] - radius - lowest_[c]) * inverse_ >= static_cast<S>(cells_[d])) return;
       from[d] = coordinate(centre[c] - radius, c);
       to[d] = coordinate(centre[c] + radius, c);
@@ -137,4 +136,4 @@ class Grid {
   std::vector<Entry> points_;
 };
 
-}  // namespace hmps::inline HMPS_ABI
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -21,9 +21,10 @@ template <class S>
   const std::string name = detail::lower_case(path);
   if (name.ends_with(".stl")) return read_stl<S>(path, settings);
   if (name.ends_with(".obj")) return read_obj<S>(path, settings);
-  throw InputError(message("hmps: ", path,
-                           " is neither .stl nor .obj; convert it to one of these: MeshLab and Blender read .ply, "
-                           ".off and .3mf, ParaView reads .vtp and .vtk"));
+  throw InputError(
+      detail::message("hmps: ", path,
+                      " is neither .stl nor .obj; convert it to one of these: MeshLab and Blender read .ply, "
+                      ".off and .3mf, ParaView reads .vtp and .vtk"));
 }
 
 /// Reads a closed surface from an .stl or .obj file, by the extension.

@@ -33,11 +33,12 @@ struct SurfaceMesh {
 /// The bounding box of the vertices. Throws `InputError` if there is no vertex or one is not finite.
 template <class S>
 [[nodiscard]] Box<S, 3> bounds(const SurfaceMesh<S>& mesh) {
-  require(!mesh.vertices.empty(), "hmps: ", mesh.source, " has no vertices; check that the file holds a surface");
+  detail::require(!mesh.vertices.empty(), "hmps: ", mesh.source,
+                  " has no vertices; check that the file holds a surface");
   Box<S, 3> box{mesh.vertices.front(), mesh.vertices.front()};
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-    require(detail::all_finite(mesh.vertices[k]), "hmps: vertex ", k, " of ", mesh.source, " is (",
-            mesh.vertices[k].transpose(), "); every coordinate must be a finite number");
+    detail::require(detail::all_finite(mesh.vertices[k]), "hmps: vertex ", k, " of ", mesh.source, " is (",
+                    mesh.vertices[k].transpose(), "); every coordinate must be a finite number");
     box.lower = box.lower.cwiseMin(mesh.vertices[k]);
     box.upper = box.upper.cwiseMax(mesh.vertices[k]);
   }
@@ -71,8 +72,8 @@ template <class S>
 /// that lose a corner.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> weld(const SurfaceMesh<S>& mesh, double tolerance = 1e-6) {
-  require(tolerance >= 0 && tolerance < 0.1, "hmps: vertices are to be merged within ", tolerance,
-          " of the surface's extent; give a small share such as 1e-6");
+  detail::require(tolerance >= 0 && tolerance < 0.1, "hmps: vertices are to be merged within ", tolerance,
+                  " of the surface's extent; give a small share such as 1e-6");
   const Box<S, 3> box = bounds(mesh);
   const S reach = static_cast<S>(tolerance) * (box.upper - box.lower).maxCoeff();
   const FixedRadiusSearch search(vectors(mesh.vertices));
@@ -92,8 +93,8 @@ template <class S>
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     std::array<Index, 3> t{};
     for (std::size_t c = 0; c < 3; ++c) {
-      require(mesh.triangles[k][c] < name.size(), "hmps: triangle ", k, " of ", mesh.source, " names vertex ",
-              mesh.triangles[k][c], " but there are only ", name.size(), "; check the file");
+      detail::require(mesh.triangles[k][c] < name.size(), "hmps: triangle ", k, " of ", mesh.source, " names vertex ",
+                      mesh.triangles[k][c], " but there are only ", name.size(), "; check the file");
       t[c] = name[mesh.triangles[k][c]];
     }
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) result.triangles.push_back(t);
@@ -201,14 +202,16 @@ void require_closed(const SurfaceMesh<S>& mesh) {
   const std::string crowded =
       faults.crowded.count == 0
           ? ""
-          : message(faults.crowded.count, " edges at which an odd number of triangles meet, three or more, the first ",
-                    "at (", faults.crowded.at.transpose(), "): a flap or an inner wall; delete it in a mesh editor");
-  require(faults.open.count == 0, "hmps: ", mesh.source, " is open at ", faults.open.count, " edges, the first at (",
-          faults.open.at.transpose(),
-          "), so that it has no inside; fill its holes in a mesh editor, weld with a larger tolerance if its parts do "
-          "not quite meet, or read it with .closed = false and fill it with fill_open_lattice",
-          crowded.empty() ? "" : ". It also has ", crowded);
-  require(crowded.empty(), "hmps: ", mesh.source, " has ", crowded);
+          : detail::message(faults.crowded.count,
+                            " edges at which an odd number of triangles meet, three or more, the first ", "at (",
+                            faults.crowded.at.transpose(), "): a flap or an inner wall; delete it in a mesh editor");
+  detail::require(
+      faults.open.count == 0, "hmps: ", mesh.source, " is open at ", faults.open.count, " edges, the first at (",
+      faults.open.at.transpose(),
+      "), so that it has no inside; fill its holes in a mesh editor, weld with a larger tolerance if its parts do "
+      "not quite meet, or read it with .closed = false and fill it with fill_open_lattice",
+      crowded.empty() ? "" : ". It also has ", crowded);
+  detail::require(crowded.empty(), "hmps: ", mesh.source, " has ", crowded);
   detail::require_oriented(mesh, faults);
 }
 

@@ -64,9 +64,9 @@ template <class S, class Holds>
     patch.triangles.push_back(corners);
   }
   const Box<S, 3> box = bounds(mesh);
-  require(!patch.triangles.empty(), "hmps: none of ", mesh.triangles.size(), " triangles of ", mesh.source,
-          ", which reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
-          ") m, is in the patch; check its place and direction, or refine the surface");
+  detail::require(!patch.triangles.empty(), "hmps: none of ", mesh.triangles.size(), " triangles of ", mesh.source,
+                  ", which reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+                  ") m, is in the patch; check its place and direction, or refine the surface");
   return patch;
 }
 
@@ -76,13 +76,13 @@ template <class S, class Holds>
 /// come out.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> refine(SurfaceMesh<S> mesh, double longest) {
-  require(detail::is_finite(longest) && longest > 0, "hmps: a surface is to be refined to edges of ", longest,
-          " m; give a positive length");
+  detail::require(detail::is_finite(longest) && longest > 0, "hmps: a surface is to be refined to edges of ", longest,
+                  " m; give a positive length");
   detail::require_triangles(mesh);
   constexpr double most = 2e7;
   const double expected = area(mesh) / (longest * longest);
-  require(expected < most, "hmps: ", mesh.source, " refined to edges of ", longest, " m has more than ", expected,
-          " triangles; give a larger length, in metres");
+  detail::require(expected < most, "hmps: ", mesh.source, " refined to edges of ", longest, " m has more than ",
+                  expected, " triangles; give a larger length, in metres");
   const auto length = [&](Index a, Index b) {
     return static_cast<double>((mesh.vertices[a] - mesh.vertices[b]).norm());
   };
@@ -123,8 +123,8 @@ template <class S>
         finer.insert(finer.end(), {{a, ab, c}, {ab, bc, c}});
       }
     }
-    require(static_cast<double>(finer.size()) < most, "hmps: ", mesh.source, " refined to edges of ", longest,
-            " m has more than ", most, " triangles; give a larger length, in metres");
+    detail::require(static_cast<double>(finer.size()) < most, "hmps: ", mesh.source, " refined to edges of ", longest,
+                    " m has more than ", most, " triangles; give a larger length, in metres");
     mesh.triangles = std::move(finer);
   }
   return mesh;

@@ -44,11 +44,11 @@ class Tube {
  public:
   /// Throws `InputError` if there is no row, or if a row is not finite or has no positive radius.
   explicit Tube(std::vector<TubeRow<S, D>> rows) {
-    require(!rows.empty(), "hmps: a tube needs at least one row of centre and radius");
+    detail::require(!rows.empty(), "hmps: a tube needs at least one row of centre and radius");
     for (std::size_t k = 0; k < rows.size(); ++k)
-      require(detail::all_finite(rows[k].centre) && detail::is_finite(rows[k].radius) && rows[k].radius > S(0),
-              "hmps: row ", k, " of a tube has radius ", rows[k].radius, " at (", rows[k].centre.transpose(),
-              "); give finite centres and positive radii in metres");
+      detail::require(detail::all_finite(rows[k].centre) && detail::is_finite(rows[k].radius) && rows[k].radius > S(0),
+                      "hmps: row ", k, " of a tube has radius ", rows[k].radius, " at (", rows[k].centre.transpose(),
+                      "); give finite centres and positive radii in metres");
     if (rows.size() == 1) rows.push_back(rows.front());
     for (std::size_t k = 0; k + 1 < rows.size(); ++k)
       pieces_.push_back({rows[k].centre, rows[k + 1].centre, rows[k].radius, rows[k + 1].radius});
@@ -82,19 +82,19 @@ class Stack {
   /// `InputError` for fewer than two rows, equal levels, or a row that is not finite and positive.
   explicit Stack(std::vector<StackRow<S>> rows, S exponent = S(2), int axis = 2)
       : rows_(std::move(rows)), exponent_(exponent), axis_(axis) {
-    require(rows_.size() >= 2, "hmps: a stack has ", rows_.size(), " rows; give at least two levels");
-    require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a stack has the exponent ", exponent,
-            "; give one from 1 (rhombus) on, 2 is an ellipse");
-    require(axis >= 0 && axis <= 2, "hmps: a stack has the axis ", axis, "; give 0, 1 or 2 for x, y or z");
+    detail::require(rows_.size() >= 2, "hmps: a stack has ", rows_.size(), " rows; give at least two levels");
+    detail::require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a stack has the exponent ", exponent,
+                    "; give one from 1 (rhombus) on, 2 is an ellipse");
+    detail::require(axis >= 0 && axis <= 2, "hmps: a stack has the axis ", axis, "; give 0, 1 or 2 for x, y or z");
     std::sort(rows_.begin(), rows_.end(), [](const auto& a, const auto& b) { return a.level < b.level; });
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto& row = rows_[k];
-      require(detail::is_finite(row.level) && detail::all_finite(row.centre) && detail::all_finite(row.half_axes) &&
-                  row.half_axes.minCoeff() > S(0),
-              "hmps: the stack's section at level ", row.level, " has half axes ", row.half_axes.transpose(),
-              "; give finite centres and positive half axes in metres");
-      require(k == 0 || rows_[k - 1].level < row.level, "hmps: a stack has two sections at level ", row.level,
-              "; give each level once");
+      detail::require(detail::is_finite(row.level) && detail::all_finite(row.centre) &&
+                          detail::all_finite(row.half_axes) && row.half_axes.minCoeff() > S(0),
+                      "hmps: the stack's section at level ", row.level, " has half axes ", row.half_axes.transpose(),
+                      "; give finite centres and positive half axes in metres");
+      detail::require(k == 0 || rows_[k - 1].level < row.level, "hmps: a stack has two sections at level ", row.level,
+                      "; give each level once");
     }
   }
 
@@ -146,25 +146,26 @@ class Plate {
   /// that leaves its plane, or a row that is not finite and positive.
   explicit Plate(std::vector<PlateRow<S>> rows, const Vector<S, 3>& across = Vector<S, 3>::UnitY(), S exponent = S(2))
       : rows_(std::move(rows)), across_(across.normalized()), exponent_(exponent) {
-    require(rows_.size() >= 2, "hmps: a plate has ", rows_.size(),
-            " rows; give at least two points of its centre line");
-    require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a plate has the exponent ", exponent,
-            "; give one from 1 (rhombus) on, 2 is an ellipse");
-    require(detail::all_finite(across_) && across_.norm() > S(0.5), "hmps: the width direction of a plate is (",
-            across.transpose(), "); give a vector that is not zero");
+    detail::require(rows_.size() >= 2, "hmps: a plate has ", rows_.size(),
+                    " rows; give at least two points of its centre line");
+    detail::require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a plate has the exponent ", exponent,
+                    "; give one from 1 (rhombus) on, 2 is an ellipse");
+    detail::require(detail::all_finite(across_) && across_.norm() > S(0.5), "hmps: the width direction of a plate is (",
+                    across.transpose(), "); give a vector that is not zero");
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto& row = rows_[k];
-      require(detail::all_finite(row.centre) && detail::is_finite(row.bow) && detail::is_finite(row.half_width) &&
-                  detail::is_finite(row.half_thickness) && row.half_width > S(0) && row.half_thickness > S(0),
-              "hmps: row ", k, " of a plate has half width ", row.half_width, " and half thickness ",
-              row.half_thickness, "; give finite centres and positive sizes in metres");
+      detail::require(detail::all_finite(row.centre) && detail::is_finite(row.bow) &&
+                          detail::is_finite(row.half_width) && detail::is_finite(row.half_thickness) &&
+                          row.half_width > S(0) && row.half_thickness > S(0),
+                      "hmps: row ", k, " of a plate has half width ", row.half_width, " and half thickness ",
+                      row.half_thickness, "; give finite centres and positive sizes in metres");
       if (k == 0) continue;
       const Vector<S, 3> along = row.centre - rows_[k - 1].centre;
-      require(along.norm() > S(0), "hmps: rows ", k - 1, " and ", k,
-              " of a plate have the same centre; give each point once");
-      require(std::abs(along.dot(across_)) <= S(1e-3) * along.norm(),
-              "hmps: the centre line of a plate leaves its plane between rows ", k - 1, " and ", k,
-              "; it must be normal to the width direction (", across_.transpose(), ")");
+      detail::require(along.norm() > S(0), "hmps: rows ", k - 1, " and ", k,
+                      " of a plate have the same centre; give each point once");
+      detail::require(std::abs(along.dot(across_)) <= S(1e-3) * along.norm(),
+                      "hmps: the centre line of a plate leaves its plane between rows ", k - 1, " and ", k,
+                      "; it must be normal to the width direction (", across_.transpose(), ")");
     }
   }
 

@@ -77,8 +77,8 @@ class TriangleTree {
   /// Throws `InputError` for a surface without triangles, vertices that are not finite, indices out of range.
   template <class S>
   explicit TriangleTree(const SurfaceMesh<S>& mesh, double accuracy = 2) : accuracy_(accuracy) {
-    require(!detail::is_nan(accuracy) && accuracy > 1, "hmps: the accuracy of a tree of triangles is ", accuracy,
-            "; give a number above 1 (2 is the default)");
+    detail::require(!detail::is_nan(accuracy) && accuracy > 1, "hmps: the accuracy of a tree of triangles is ",
+                    accuracy, "; give a number above 1 (2 is the default)");
     detail::require_triangles(mesh);
     for (const auto& t : mesh.triangles)
       triangles_.push_back({mesh.vertices[t[0]].template cast<double>(), mesh.vertices[t[1]].template cast<double>(),

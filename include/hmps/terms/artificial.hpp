@@ -54,8 +54,8 @@ struct Artificial {
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
   if constexpr (std::is_arithmetic_v<Modulus>)
-    require(detail::is_finite(modulus) && modulus >= 0, "hmps: the modulus of the artificial force is ", modulus,
-            " Pa; it must not be negative (the paper takes Young's modulus)");
+    detail::require(detail::is_finite(modulus) && modulus >= 0, "hmps: the modulus of the artificial force is ",
+                    modulus, " Pa; it must not be negative (the paper takes Young's modulus)");
   return {std::move(modulus)};
 }
 

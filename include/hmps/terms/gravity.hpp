@@ -62,8 +62,8 @@ template <PerParticle Rho, class Derived>
   constexpr int D = Derived::SizeAtCompileTime;
   static_assert(D == 2 || D == 3, "hmps: the acceleration of gravity has 2 or 3 components");
   if constexpr (std::is_arithmetic_v<Rho>) require_positive(density, 1, "density of gravity", "kg/m3");
-  require(detail::all_finite(acceleration), "hmps: the acceleration of gravity is (", acceleration.eval(),
-          ") m/s2; give finite numbers");
+  detail::require(detail::all_finite(acceleration), "hmps: the acceleration of gravity is (", acceleration.eval(),
+                  ") m/s2; give finite numbers");
   return Gravity<Rho, D>{std::move(density), acceleration.template cast<double>()};
 }
 

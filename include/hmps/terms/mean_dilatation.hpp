@@ -78,10 +78,11 @@ struct SplitBulkModulus {
 /// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive.
 template <class P>
 [[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
-  require(detail::is_finite(bulk_modulus) && bulk_modulus > 0, "hmps: the bulk modulus to be split is ", bulk_modulus,
-          " Pa; it must be positive");
-  require(detail::is_finite(shear_modulus) && shear_modulus > 0,
-          "hmps: the shear modulus beside the bulk modulus to be split is ", shear_modulus, " Pa; it must be positive");
+  detail::require(detail::is_finite(bulk_modulus) && bulk_modulus > 0, "hmps: the bulk modulus to be split is ",
+                  bulk_modulus, " Pa; it must be positive");
+  detail::require(detail::is_finite(shear_modulus) && shear_modulus > 0,
+                  "hmps: the shear modulus beside the bulk modulus to be split is ", shear_modulus,
+                  " Pa; it must be positive");
   const P law = std::min(bulk_modulus, 2 * shear_modulus);
   return {law, bulk_modulus - law};
 }
@@ -93,8 +94,8 @@ template <class P>
 template <int Means = 1, class Bulk>
 [[nodiscard]] MeanDilatation<Bulk, Means> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)
-    require(detail::is_finite(bulk) && bulk >= 0, "hmps: the bulk modulus of mean_dilatation is ", bulk,
-            " Pa; it must not be negative");
+    detail::require(detail::is_finite(bulk) && bulk >= 0, "hmps: the bulk modulus of mean_dilatation is ", bulk,
+                    " Pa; it must not be negative");
   return {std::move(bulk)};
 }
 

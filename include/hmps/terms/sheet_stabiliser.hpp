@@ -26,8 +26,8 @@ struct SheetStabiliser {
 /// Throws `InputError` for moduli that are not positive and for fewer than two layers.
 template <class P>
 [[nodiscard]] SheetStabiliser<P> sheet_stabiliser(int layers, P bulk_modulus, P shear_modulus) {
-  require(layers >= 2, "hmps: a sheet of ", layers,
-          " particles has no stabiliser; it takes two layers at least to bend");
+  detail::require(layers >= 2, "hmps: a sheet of ", layers,
+                  " particles has no stabiliser; it takes two layers at least to bend");
   const SplitBulkModulus<P> shared = split_bulk_modulus(bulk_modulus, shear_modulus);
   const SplitBulkModulus<P> alone{bulk_modulus, P(0)};
   const P ratio = bulk_modulus / shear_modulus, wave = shear_wave_modulus(shear_modulus);

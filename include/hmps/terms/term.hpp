@@ -53,8 +53,8 @@ class BlockParameters {
     require_view(table, "the table of parameters");
     return gather([&](Index i) {
       const auto b = static_cast<std::size_t>(body[i]);
-      require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i],
-              " but the table of parameters has ", table.size(), " bodies; number them from 0");
+      detail::require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i],
+                      " but the table of parameters has ", table.size(), " bodies; number them from 0");
       return table[b];
     });
   }

@@ -88,12 +88,14 @@ template <class P, class S>
                                                          const std::vector<S>& layer_spacings, double spacing,
                                                          P bulk_modulus, P shear_modulus) {
   (void)split_bulk_modulus(bulk_modulus, shear_modulus);  // for its errors
-  require(3 * bulk_modulus >= 2 * shear_modulus, "hmps: the bulk modulus ", bulk_modulus, " Pa and the shear modulus ",
-          shear_modulus, " Pa give a negative Poisson's ratio; give the bulk modulus first, both in Pa");
-  require(detail::is_finite(spacing) && spacing > 0, "hmps: the particle spacing is ", spacing,
-          " m; it must be positive");
-  require(layers.size() == layer_spacings.size(), "hmps: ", layers.size(), " particles have a number of layers but ",
-          layer_spacings.size(), " a spacing of layers; give both of each particle");
+  detail::require(3 * bulk_modulus >= 2 * shear_modulus, "hmps: the bulk modulus ", bulk_modulus,
+                  " Pa and the shear modulus ", shear_modulus,
+                  " Pa give a negative Poisson's ratio; give the bulk modulus first, both in Pa");
+  detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the particle spacing is ", spacing,
+                  " m; it must be positive");
+  detail::require(layers.size() == layer_spacings.size(), "hmps: ", layers.size(),
+                  " particles have a number of layers but ", layer_spacings.size(),
+                  " a spacing of layers; give both of each particle");
   const P K = bulk_modulus, mu = shear_modulus;
   const P law = std::min(K, 4 * mu * (K + mu / 3) / (K + 4 * mu / 3) - 4 * mu / 3);
   ThinWallStabiliser<P> chosen{{}, {law, K - law}};
@@ -106,10 +108,10 @@ template <class P, class S>
       chosen.moduli.push_back(shear_wave_modulus(mu));
       continue;
     }
-    require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
-            " layers; it takes two to bend, and more than eight are bulk (0)");
-    require(c >= 0.6 - 1e-6 && c <= 1.3, "hmps: the layers at particle ", i, " are ", c,
-            " spacings apart; give a spacing of which they are 0.6 to 1.3");
+    detail::require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
+                    " layers; it takes two to bend, and more than eight are bulk (0)");
+    detail::require(c >= 0.6 - 1e-6 && c <= 1.3, "hmps: the layers at particle ", i, " are ", c,
+                    " spacings apart; give a spacing of which they are 0.6 to 1.3");
     if (layers[i] != count || c != apart)  // usually equal to that of the previous particle
       modulus = detail::thin_wall_modulus(count = layers[i], apart = c);
     chosen.moduli.push_back(static_cast<P>(modulus) * mu);

@@ -133,7 +133,7 @@ TEST(LatticeBonds, RefuseWhatIsOffTheLattice) {
 TEST(LatticeBonds, NameTheSpacingThatParticlesSeemToHave) {
   const auto points = scenes::box<3>({6, 5, 4});
   const double l0 = scenes::Scene<3>::spacing;
-  const std::string right = hmps::message("is the spacing ", l0, " m?");
+  const std::string right = hmps::detail::message("is the spacing ", l0, " m?");
   for (const double factor : {1.1, 0.6, 0.5, 2.0, 1e3, 1e-3, 1e-7}) {
     const std::string error =
         error_of([&] { (void)hmps::LatticeBonds<double, 3>(hmps::vectors(points), {.spacing = factor * l0}); });

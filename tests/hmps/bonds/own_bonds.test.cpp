@@ -102,12 +102,12 @@ TEST(OwnBonds, AreRefusedWithTheNamesOfTheParticles) {
     std::vector<double> weights(6, 1.0);
     weights[4] = bad;
     const std::string text = refused(all, weights);
-    EXPECT_TRUE(has(text, "the weight of the bond of particles 1 and 3 is " + hmps::message(bad) + "; it must"))
+    EXPECT_TRUE(has(text, "the weight of the bond of particles 1 and 3 is " + hmps::detail::message(bad) + "; it must"))
         << text;
   }
   for (const double bad : {1e-35, 1e35}) {  // A and its inverse overflow or vanish
     const std::string text = refused(all, bad);
-    EXPECT_TRUE(has(text, hmps::message("is ", bad, "; give weights between 1e-30 and 1e30"))) << text;
+    EXPECT_TRUE(has(text, hmps::detail::message("is ", bad, "; give weights between 1e-30 and 1e30"))) << text;
   }
   const std::string sides = refused(all, [](std::size_t i, std::size_t j) { return i == 2 && j == 1 ? 2.0 : 1.0; });
   EXPECT_TRUE(has(sides, "particles 1 and 2 has the weight 1 as w(1, 2) and 2 as w(2, 1)")) << sides;

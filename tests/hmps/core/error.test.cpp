@@ -16,20 +16,20 @@ static_assert(std::is_base_of_v<hmps::Error, hmps::StateError>);
 static_assert(!std::is_base_of_v<hmps::InputError, hmps::StateError>);
 
 TEST(Error, MessageJoinsItsParts) {
-  EXPECT_EQ(hmps::message("particle ", 7u, " lies at ", 0.25, " m"), "particle 7 lies at 0.25 m");
-  EXPECT_EQ(hmps::message("E", ' ', 3, ')'), "E 3)");
-  EXPECT_EQ(hmps::message(), "");
+  EXPECT_EQ(hmps::detail::message("particle ", 7u, " lies at ", 0.25, " m"), "particle 7 lies at 0.25 m");
+  EXPECT_EQ(hmps::detail::message("E", ' ', 3, ')'), "E 3)");
+  EXPECT_EQ(hmps::detail::message(), "");
 }
 
 // 1.2e-3 and its neighbour in single precision must not read the same.
 TEST(Error, MessageKeepsTheDigitsOfAFloat) {
-  EXPECT_NE(hmps::message(1.2e-3f), hmps::message(std::nextafter(1.2e-3f, 1.0f)));
+  EXPECT_NE(hmps::detail::message(1.2e-3f), hmps::detail::message(std::nextafter(1.2e-3f, 1.0f)));
 }
 
 TEST(Error, RequireThrowsItsMessage) {
-  EXPECT_NO_THROW(hmps::require(true, "never"));
+  EXPECT_NO_THROW(hmps::detail::require(true, "never"));
   try {
-    hmps::require(1 > 2, "hmps: the spacing is ", -1.5, " m");
+    hmps::detail::require(1 > 2, "hmps: the spacing is ", -1.5, " m");
     FAIL() << "nothing was thrown";
   } catch (const hmps::InputError& error) {
     EXPECT_STREQ(error.what(), "hmps: the spacing is -1.5 m");

@@ -106,7 +106,8 @@ TEST(Pressure, RefusesBadInput) {
   const hmps::Index last = static_cast<hmps::Index>(s.reference.size() - 1);
   s.deform(Tensor::Identity());
   s.gradient[last].setZero();  // as where nothing has written it
-  EXPECT_NE(text([&] { top.add(F, f, 1.0); }).find(hmps::message("of particle ", last, " is zero")), std::string::npos);
+  EXPECT_NE(text([&] { top.add(F, f, 1.0); }).find(hmps::detail::message("of particle ", last, " is zero")),
+            std::string::npos);
   s.deform(Tensor::Identity());
   EXPECT_THROW(top.add(F.part(0, 3), f, 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f.part(0, 3), 1.0), hmps::InputError);

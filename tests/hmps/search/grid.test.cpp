@@ -22,7 +22,7 @@ class GridTest : public ::testing::Test {
   static constexpr int D = C::D;
   using Point = hmps::Vector<Real, D>;
   std::vector<Point> points;
-  hmps::Grid<Real, D> grid;
+  hmps::detail::Grid<Real, D> grid;
 
   void fill(std::size_t n, Real size) {
     std::mt19937 random(7);

@@ -61,7 +61,7 @@ TEST(Artificial, RefusesAModulusThatIsNegativeOrNotFinite) {
   EXPECT_NO_THROW((void)hmps::artificial(20000));
   for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const std::string text = error_of([&] { (void)hmps::artificial(bad); });
-    EXPECT_TRUE(has(text, "modulus of the artificial force is " + hmps::message(bad) + " Pa")) << text;
+    EXPECT_TRUE(has(text, "modulus of the artificial force is " + hmps::detail::message(bad) + " Pa")) << text;
   }
 }
 

@@ -67,11 +67,11 @@ TEST(Viscous, RefusesImpossibleFluids) {
   EXPECT_NO_THROW((void)hmps::viscous(1000, 0));
   for (const double bad : {0.0, -1000.0, std::numeric_limits<double>::quiet_NaN()}) {
     const std::string text = error_of([&] { (void)hmps::viscous(bad, 2e-3); });
-    EXPECT_TRUE(has(text, "the density is " + hmps::message(bad) + " kg/m3")) << text;
+    EXPECT_TRUE(has(text, "the density is " + hmps::detail::message(bad) + " kg/m3")) << text;
   }
   for (const double bad : {-2e-3, std::numeric_limits<double>::infinity()}) {
     const std::string text = error_of([&] { (void)hmps::viscous(1000, bad); });
-    EXPECT_TRUE(has(text, "the viscosity is " + hmps::message(bad) + " m2/s")) << text;
+    EXPECT_TRUE(has(text, "the viscosity is " + hmps::detail::message(bad) + " m2/s")) << text;
   }
   // A number beside a view or a callable too.
   const std::vector<double> of_each(3, 1.0);
