@@ -171,7 +171,9 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
-    auto around = cells_within(settings.radius_ratio);
+    detail::require(settings.radius_ratio >= 1 && settings.radius_ratio < 16, "hmps: the effective radius is ",
+                    settings.radius_ratio, " spacings; on a lattice it must be at least 1 and below 16");
+    auto around = detail::cells_within<D>(settings.radius_ratio);
     // Sorted by axes, then by slot, so that the sweeps read memory in one direction.
     std::sort(around.begin(), around.end(), [&](const auto& a, const auto& b) {
       return std::pair(axes_of(a), cells.key(a)) < std::pair(axes_of(b), cells.key(b));
@@ -228,29 +230,8 @@ class LatticeBonds : public Blocks<K, D> {
     for (const Placed& p : placed) runs_[next[p.group]++] = p.run;
   }
 
-  /// The cells within `radius` spacings of the origin, except the origin.
-  [[nodiscard]] static std::vector<typename detail::LatticeCells<D>::Cell> cells_within(double radius) {
-    detail::require(radius >= 1 && radius < 16, "hmps: the effective radius is ", radius,
-                    " spacings; on a lattice it must be at least 1 and below 16");
-    std::vector<typename detail::LatticeCells<D>::Cell> cells;
-    const auto reach = static_cast<std::int32_t>(std::floor(radius * (1 + 1e-12)));
-    typename detail::LatticeCells<D>::Cell cell;
-    cell.fill(-reach);
-    for (bool more = true; more;) {
-      double squared = 0;
-      for (std::int32_t c : cell) squared += double(c) * c;
-      if (squared > 0 && squared <= radius * radius * (1 + 1e-12)) cells.push_back(cell);
-      more = false;
-      for (std::size_t d = D; d-- > 0 && !more;) {
-        more = cell[d] < reach;
-        cell[d] = more ? cell[d] + 1 : -reach;
-      }
-    }
-    return cells;
-  }
-
   /// The axes along which `cell` differs from the origin.
-  [[nodiscard]] static unsigned axes_of(const typename detail::LatticeCells<D>::Cell& cell) {
+  [[nodiscard]] static unsigned axes_of(const detail::LatticeCell<D>& cell) {
     unsigned axes = 0;
     for (int c = 0; c < D; ++c)
       if (cell[static_cast<std::size_t>(c)] != 0) axes |= 1u << c;

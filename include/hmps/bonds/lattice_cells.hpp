@@ -21,10 +21,32 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
+/// A cell of a simple cubic lattice, or the difference of two: steps along each axis.
+template <int D>
+using LatticeCell = std::array<std::int32_t, std::size_t{D}>;
+
+/// The cells within `radius` spacings of the origin, except the origin, the first axis fastest.
+template <int D>
+[[nodiscard]] std::vector<LatticeCell<D>> cells_within(double radius) {
+  constexpr double rounding = 1e-12;
+  const auto reach = static_cast<std::int32_t>(std::floor(radius * (1 + rounding)));
+  std::vector<LatticeCell<D>> cells;
+  LatticeCell<D> cell;
+  cell.fill(-reach);
+  for (std::size_t axis = 0; axis < D;) {
+    double squared = 0;
+    for (const std::int32_t c : cell) squared += double(c) * c;
+    if (squared > 0 && squared <= radius * radius * (1 + rounding)) cells.push_back(cell);
+    for (axis = 0; axis < D && cell[axis] == reach; ++axis) cell[axis] = -reach;
+    if (axis < D) ++cell[axis];
+  }
+  return cells;
+}
+
 /// The occupied cells of a simple cubic lattice, sorted row by row.
 template <int D>
 struct LatticeCells {
-  using Cell = std::array<std::int32_t, std::size_t{D}>;
+  using Cell = LatticeCell<D>;
   std::vector<Cell> cell;                ///< Cell of each particle.
   std::vector<Index> order;              ///< The particles, sorted by cell.
   std::array<int, std::size_t{D}> axis;  ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "hmps/bonds/lattice_cells.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
@@ -33,22 +34,13 @@ namespace detail {
 template <int D>
 class SiteMap {
  public:
-  using Site = std::array<std::int32_t, std::size_t{D}>;
+  using Site = LatticeCell<D>;
 
   SiteMap(const Vector<double, D>& origin, const SupportSettings& settings)
-      : origin_(origin), spacing_(settings.spacing), radius_(settings.radius_ratio) {
-    const int reach = static_cast<int>(std::floor(radius_));
-    Site offset;
-    offset.fill(-reach);
-    for (;;) {
-      const Vector<double, D> r0 = steps(offset);
-      if (r0.norm() <= radius_ * (1 + 1e-9) && r0.squaredNorm() > 0) offsets_.push_back(offset);
-      std::size_t c = 0;
-      for (; c < D && offset[c] == reach; ++c) offset[c] = -reach;
-      if (c == D) break;
-      ++offset[c];
-    }
-  }
+      : origin_(origin),
+        spacing_(settings.spacing),
+        radius_(settings.radius_ratio),
+        offsets_(cells_within<D>(radius_)) {}
 
   [[nodiscard]] static Vector<double, D> steps(const Site& site) {
     Vector<double, D> result;
