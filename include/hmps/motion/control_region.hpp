@@ -13,6 +13,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/motion/rigid_motion.hpp"
@@ -29,8 +30,9 @@ template <class S, int D, class M = std::function<Pose<double, D>(double)>>
 requires Motion<M, D>
 class ControlRegion {
  public:
-  /// Throws `InputError` if the region has no particle, and for an index out of range, a repeated index, or a reference
-  /// position that is not finite.
+  /// The particles are a list of indices in any order, or a `ParticleSet`. Throws `InputError` if the region has no
+  /// particle, and for an index out of range, a repeated index, a reference position that is not finite, or a set of
+  /// another number of particles.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
     detail::require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
@@ -45,6 +47,13 @@ class ControlRegion {
       detail::require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k],
                       " is (", reference[sorted[k]].transpose(), "); give finite metres");
     }
+  }
+
+  ControlRegion(const ParticleSet& particles, const VectorView<const S, D>& reference, M motion)
+      : ControlRegion(particles.indices(), reference, std::move(motion)) {
+    detail::require(particles.scene_size() == reference.size(), "hmps: the set of particles of a control region is of ",
+                    particles.scene_size(), " particles, but there are ", reference.size(),
+                    " reference positions; make both of the same scene");
   }
 
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
@@ -125,5 +134,7 @@ class ControlRegion {
 
 template <class T, int D, class M>
 ControlRegion(std::vector<Index>, const VectorView<T, D>&, M) -> ControlRegion<std::remove_const_t<T>, D, M>;
+template <class T, int D, class M>
+ControlRegion(const ParticleSet&, const VectorView<T, D>&, M) -> ControlRegion<std::remove_const_t<T>, D, M>;
 
 }  // namespace hmps::inline HMPS_ABI

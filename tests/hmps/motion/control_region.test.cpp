@@ -90,6 +90,14 @@ TYPED_TEST(ControlRegionTest, UnloadsItsOwnParticlesOnly) {
   EXPECT_THROW(region.unload(hmps::vectors(f)), hmps::InputError);
 }
 
+TYPED_TEST(ControlRegionTest, TakesASetOfParticles) {
+  const auto reference = hmps::vectors(this->at_rest);
+  const hmps::ParticleSet set(8, {5, 1, 6});
+  EXPECT_EQ(ControlRegion(set, reference, this->motion()).particles(), (std::vector<Index>{1, 5, 6}));
+  EXPECT_THROW(ControlRegion(hmps::ParticleSet(9, {5, 1, 6}), reference, this->motion()), hmps::InputError);
+  EXPECT_THROW(ControlRegion(set & ~set, reference, this->motion()), hmps::InputError);
+}
+
 TYPED_TEST(ControlRegionTest, StartsWithoutAJumpOfVelocity) {
   const ControlRegion region({1, 5}, hmps::vectors(this->at_rest), this->motion());
   const double dt = 1e-5;

@@ -100,6 +100,7 @@ TEST(PatchPressure, ParticlesNearAPatchAreThoseOfItsLayer) {
   const auto base = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] < -0.5; });
   const auto held = particles_near(vectors(body.x), base, 0.99 * l0);
   EXPECT_EQ(held.size(), 8u * 6u);
+  EXPECT_EQ(held.scene_size(), body.x.size());
   for (const Index i : held) EXPECT_NEAR(body.x[i][2], l0 / 2, 1e-9);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0.4 * l0), InputError);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0), InputError);
