@@ -58,7 +58,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const auto force = [&](const auto& at, const auto& speed, const auto& density) {
     internal(at.part(0, n), speed.part(0, n), density.part(0, n));
     raised(at, F, hmps::vectors(seen));
-    contact(hmps::vectors(std::as_const(seen)), speed, F, 1e-6, density);
+    contact.add(hmps::vectors(std::as_const(seen)), speed, F, density, 1e-6);
   };
 
   // What is held: the base, the lowest tenth of the surface; and the plate, which goes down by a third of a spacing at

@@ -56,7 +56,7 @@ template <class T, class S, Executor E = Serial>
 ///
 ///     const PatchPressure pressure(vectors(reference), patch, l0);
 ///     force(x, v, f);                            // internal forces, N/m3
-///     pressure(x, 2e3, l0 * l0 * l0, f);         // 2 kPa pressing on the patch; a negative one pulls
+///     pressure.add(x, f, 2e3, l0 * l0 * l0);     // 2 kPa pressing on the patch; a negative one pulls
 class PatchPressure {
  public:
   /// @param reference  reference positions of the particles in m
@@ -75,7 +75,7 @@ class PatchPressure {
   /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite and a volume
   /// that is not positive.
   template <class X, PerParticle Vol, class F>
-  void operator()(const VectorView<X, 3>& x, double pressure, const Vol& volume, const VectorView<F, 3>& f) const {
+  void add(const VectorView<X, 3>& x, const VectorView<F, 3>& f, double pressure, const Vol& volume) const {
     require_size(f, x.size(), "force densities");
     require_apart(f, "force densities", x, "positions");
     detail::require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure,
