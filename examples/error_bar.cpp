@@ -21,7 +21,7 @@ double sag(double l0, const Vector& origin) {
   const hmps::Box<double, 3> around{Vector(-0.03, -0.03, -0.04), Vector(0.08, 0.06, 0.05)};
   const auto sites = hmps::fill_lattice(tilted, around, l0, origin);
   std::vector<Vector> reference;
-  for (const auto i : hmps::remove_weak(hmps::vectors(sites), {.spacing = l0})) reference.push_back(sites[i]);
+  for (const auto i : hmps::supported_particles(hmps::vectors(sites), {.spacing = l0})) reference.push_back(sites[i]);
   std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity;
 
   const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference), {.spacing = l0});

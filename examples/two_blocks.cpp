@@ -53,10 +53,10 @@ int main() {
   const auto advance = [&](double t) {  // from t - dt to t
     force(x, v, f);                     // what holds the bodies together and their weight, N/m3
     hmps::kick(v, f, rho, dt);
-    pulled.prescribe(t, dt, x, v);  // forced displacement, which contact has to see
+    pulled.prescribe(x, v, t, dt);  // forced displacement, which contact has to see
     for (Vector& density : load) density.setZero();
-    contact(x, v, F, dt, f);  // what they do to each other
-    pulled.unload(f);         // what is pulled follows no force
+    contact.add(x, v, F, f, dt);  // adds what they do to each other
+    pulled.unload(f);             // what is pulled follows no force
     hmps::kick(v, f, rho, dt);
     hmps::drift(x, v, dt);
   };

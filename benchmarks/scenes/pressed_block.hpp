@@ -118,7 +118,7 @@ struct PressedBlock {
     for (const hmps::Index i : parts.plate) velocity[i] = Vector(static_cast<S>(speed), S(0), static_cast<S>(sinking));
   }
   /// Adds the force of contact over `time`, for particles seen at `places`.
-  void touch(const hmps::VectorView<S, 3>& places, double time) { (void)contact(places, v(), F(), time, f()); }
+  void touch(const hmps::VectorView<S, 3>& places, double time) { (void)contact.add(places, v(), F(), f(), time); }
   [[nodiscard]] hmps::Vector<double, 3> on_wall() const { return contact.force_on_first(pair); }
   void drift() {
     if constexpr (std::is_same_v<S, float>)

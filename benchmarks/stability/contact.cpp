@@ -78,7 +78,7 @@ class Meeting {
     hmps::kick(v, f, rho, dt);
     hold();
     body_.unload();
-    const auto report = contact_(x, v, body_.F(), dt, f);
+    const auto report = contact_.add(x, v, body_.F(), f, dt);
     deep_ += report.deep;
     contacts_ += report.contacts;
     hmps::kick(v, f, rho, dt);

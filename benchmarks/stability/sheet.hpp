@@ -59,7 +59,7 @@ class Sheet {
   }
   template <class X, class V, class F>
   void touch(const X& x, const V& v, const F& f) {
-    if (touches()) contact_(x, v, body_.F(), 2e-6, f);
+    if (touches()) contact_.add(x, v, body_.F(), f, 2e-6);
   }
 
   [[nodiscard]] std::vector<hmps::StepCause> causes(const hmps::StableStep& found,

@@ -56,14 +56,14 @@ Measured press(int n, const Method& method) {
   return with_force(method, body.F(), bonds, law, [&](auto& internal) {
     const auto force = [&](const auto& x, const auto& v, const auto& f) {
       internal(x, v, f);
-      contact(x, v, body.F(), any_step, f);
+      contact.add(x, v, body.F(), f, any_step);
     };
     for (std::size_t i = first; i < body.size(); ++i)
       body.position[i][1] -= closing * (body.reference[i][1] > 2 * height ? 1 : 0.5);
     settle(body, force, moves, young * closing * width, 1e-4);
     // The contact alone, column by column.
     body.unload();
-    contact(body.x(), body.v(), body.F(), any_step, body.f());
+    contact.add(body.x(), body.v(), body.F(), body.f(), any_step);
     std::vector<double> column(static_cast<std::size_t>(2 * n), 0);
     for (std::size_t i = first; i < body.size(); ++i)
       column[static_cast<std::size_t>(body.reference[i][0] / l0)] += body.load[i][1] * l0;
@@ -119,14 +119,14 @@ Measured indent(int n, const Method& method) {
   return with_force(method, body.F().part(0, first), bonds, tissue, [&](auto& internal) {
     const auto force = [&](const auto& x, const auto& v, const auto& f) {
       internal(x.part(0, first), v.part(0, first), f.part(0, first));
-      contact(x, v, body.F(), any_step, f);
+      contact.add(x, v, body.F(), f, any_step);
     };
     Measured measured{l0, body.size(), {}};
     for (const double delta : {1e-3, 2e-3}) {
       for (std::size_t i = first; i < body.size(); ++i) body.position[i] = body.reference[i] - Vector(0, 0, delta);
       settle(body, force, moves, indentation(delta), 1e-3);
       body.unload();
-      contact(body.x(), body.v(), body.F(), any_step, body.f());
+      contact.add(body.x(), body.v(), body.F(), body.f(), any_step);
       double up = 0;
       for (std::size_t i = first; i < body.size(); ++i) up += body.load[i][2] * body.volume();
       measured.values.push_back(up);

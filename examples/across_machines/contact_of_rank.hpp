@@ -149,11 +149,11 @@ class ContactOfRank {
 
   /// Adds the contact force densities on the own particles to `f`. Throws `StateError` where a wall has lost a
   /// particle.
-  void operator()(double t, double dt, std::vector<Vector>& f) {
+  void add(std::vector<Vector>& f, double t, double dt) {
     if (!contact_) return;
     std::fill(f_.begin(), f_.end(), Vector::Zero());
-    const auto report = (*contact_)(hmps::vectors(std::as_const(x_)), hmps::vectors(std::as_const(v_)),
-                                    hmps::matrices(std::as_const(F_)), dt, hmps::vectors(f_));
+    const auto report = contact_->add(hmps::vectors(std::as_const(x_)), hmps::vectors(std::as_const(v_)),
+                                      hmps::matrices(std::as_const(F_)), hmps::vectors(f_), dt);
     late_ = late_before_ + report.late;
     if (report.deep > 0)
       throw hmps::StateError(examples::message("hmps: at t = ", t, " s, the wall of '", body_name[report.lost_in],

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <hmps/core/view.hpp>
 #include <hmps/search/fixed_radius.hpp>
@@ -43,17 +46,28 @@ template <class Own>
   for (std::size_t k = 0; k < place.size(); ++k)
     if ((low - place[k]).cwiseMax(place[k] - high).maxCoeff() <= hops * reach) nearby.push_back(static_cast<Index>(k));
 
-  std::vector<Point> there;
-  for (const Index k : nearby) there.push_back(place[k]);
-  const hmps::FixedRadiusSearch search(hmps::vectors(std::as_const(there)));
+  // Only what lies within reach of the box around the other body can meet it.
+  std::array<Eigen::AlignedBox3d, 2> box;
+  const auto body = [&](Index k) { return static_cast<std::size_t>(surface[k].body); };
+  for (const Index k : nearby) box[body(k)].extend(place[k]);
+  std::erase_if(nearby, [&](Index k) { return box[1 - body(k)].exteriorDistance(place[k]) > 1.001 * reach; });
+
+  std::array<std::vector<Point>, 2> there;
+  std::array<std::vector<Index>, 2> of_body;
+  for (std::size_t q = 0; q < nearby.size(); ++q) {
+    there[body(nearby[q])].push_back(place[nearby[q]]);
+    of_body[body(nearby[q])].push_back(static_cast<Index>(q));
+  }
+  const hmps::FixedRadiusSearch lower(hmps::vectors(std::as_const(there[0])));
+  const hmps::FixedRadiusSearch upper(hmps::vectors(std::as_const(there[1])));
   std::vector<Index> within;
   constexpr std::uint8_t unknown = 255;
   std::vector<std::uint8_t> hop(nearby.size(), unknown);
   std::vector<Index> front, next;
   const auto for_each_partner = [&](Index q, auto&& visit) {
-    search(there[q], reach, within);
-    for (const Index other : within)
-      if (surface[nearby[other]].body != surface[nearby[q]].body) visit(other);
+    const std::size_t partner = 1 - body(nearby[q]);
+    (partner == 0 ? lower : upper)(place[nearby[q]], reach, within);
+    for (const Index k : within) visit(of_body[partner][k]);
   };
   for (std::size_t q = 0; q < nearby.size(); ++q) {
     if (!own(nearby[q])) continue;

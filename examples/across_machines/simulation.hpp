@@ -120,7 +120,7 @@ class Simulation {
     lap(times_.messages);
     force_(hmps::vectors(std::as_const(state_.x)), hmps::vectors(std::as_const(state_.v)), hmps::vectors(f_));
     hmps::kick(v, f, rho, dt_);
-    for (const Region& region : regions_) region.prescribe(t, dt_, x, v);
+    for (const Region& region : regions_) region.prescribe(x, v, t, dt_);
     std::array<double, 2> change = contact_.change(state_.x, F_);
     require_finite(t);
     contact_.require_slow(t, dt_, state_.v);
@@ -132,7 +132,7 @@ class Simulation {
     contact_.gather(state_.x, state_.v, F_);
     lap(times_.messages);
     std::fill(f_.begin(), f_.end(), Vector::Zero());
-    contact_(t, dt_, f_);
+    contact_.add(f_, t, dt_);
     lap(times_.contact);
     for (const Region& region : regions_) region.unload(f);
     hmps::kick(v, f, rho, dt_);
@@ -220,9 +220,9 @@ inline void run_plainly(const Scene& scene, double dt, std::size_t first, std::s
     const double t = static_cast<double>(step) * dt;
     force(x, v, f);
     hmps::kick(v, f, rho, dt);
-    for (const Region& region : regions) region.prescribe(t, dt, x, v);
+    for (const Region& region : regions) region.prescribe(x, v, t, dt);
     std::fill(load.begin(), load.end(), Vector::Zero());
-    contact.check(contact(x, v, hmps::matrices(F), dt, f), t);
+    contact.check(contact.add(x, v, hmps::matrices(F), f, dt), t);
     for (const Region& region : regions) region.unload(f);
     hmps::kick(v, f, rho, dt);
     hmps::drift(x, v, dt);

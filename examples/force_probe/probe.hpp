@@ -88,7 +88,7 @@ void add_contact(const State& state, const Settings& settings, const hmps::Matri
         contact.add_organ({.name = "body " + std::to_string(body), .slaves = particles, .masters = particles}));
   for (std::size_t a = 0; a < organs.size(); ++a)
     for (std::size_t b = a + 1; b < organs.size(); ++b) contact.add_pair(organs[a], organs[b]);
-  contact(hmps::vectors(state.position), hmps::vectors(state.velocity), F, settings.time_step, f);
+  contact.add(hmps::vectors(state.position), hmps::vectors(state.velocity), F, f, settings.time_step);
 }
 
 /// The forces on `state`, evaluated in the scalar type `S`. All of them, contact too, are those at

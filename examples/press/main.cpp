@@ -27,7 +27,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const double height = upper[2] - lower[2], volume = hmps::volume(mesh), l0 = std::cbrt(volume / particles);
   const auto sites = hmps::fill_lattice(mesh, l0);
   std::vector<Vector> reference;
-  for (const auto i : hmps::remove_weak(hmps::vectors(sites), {.spacing = l0, .smallest_piece = 0.5}))
+  for (const auto i : hmps::supported_particles(hmps::vectors(sites), {.spacing = l0, .smallest_piece = 0.5}))
     reference.push_back(sites[i]);
   const std::size_t n = reference.size();
   const double beyond = 2 * l0 + squeeze * height;  // since what is pressed grows broader
@@ -58,7 +58,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const auto force = [&](const auto& at, const auto& speed, const auto& density) {
     internal(at.part(0, n), speed.part(0, n), density.part(0, n));
     raised(at, F, hmps::vectors(seen));
-    contact(hmps::vectors(std::as_const(seen)), speed, F, 1e-6, density);
+    contact.add(hmps::vectors(std::as_const(seen)), speed, F, density, 1e-6);
   };
 
   // What is held: the base, the lowest tenth of the surface; and the plate, which goes down by a third of a spacing at

@@ -50,7 +50,7 @@ void state(double bad, const std::vector<V>& X) {
     const hmps::ControlRegion region({3}, hmps::vectors(X),
                                      [&](double) { return [&](const V&) { return V(bad, 0, 0); }; });
     auto places = X, speeds = rest;
-    region.prescribe(0, 1e-5, hmps::vectors(places), hmps::vectors(speeds));
+    region.prescribe(hmps::vectors(places), hmps::vectors(speeds), 0, 1e-5);
   });
 }
 

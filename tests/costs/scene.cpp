@@ -77,7 +77,7 @@ void halves(int steps, double gap, bool meet) {
       force(x, v, f);
       hmps::kick(v, f, density, time_step);
       for (auto& load : body.load) load.setZero();
-      contacts += contact(x, v, F, time_step, f).contacts;
+      contacts += contact.add(x, v, F, f, time_step).contacts;
       hmps::kick(v, f, density, time_step);
       hmps::drift(x, v, time_step);
     }
@@ -104,7 +104,7 @@ void region(int steps, bool restricted) {
   for (int step = 1; step <= steps; ++step) {
     force(x, v, f);
     hmps::kick(v, f, density, time_step);
-    leader.prescribe(step * time_step, time_step, x, v);
+    leader.prescribe(x, v, step * time_step, time_step);
     hmps::drift(x, v, time_step);
   }
   std::printf("%zu %zu\n", body.size(), heap() - before);

@@ -75,8 +75,8 @@ void contact(benchmark::State& run, Gap&& gap, const Executor& execute) {
   std::size_t step = 0, contacts = 0;
   for (auto _ : run) {
     slabs.move(step++);
-    report = touch(hmps::vectors(slabs.x), hmps::vectors(slabs.v), hmps::matrices(slabs.F), bench::time_step,
-                   hmps::vectors(slabs.f), execute);
+    report = touch.add(hmps::vectors(slabs.x), hmps::vectors(slabs.v), hmps::matrices(slabs.F), hmps::vectors(slabs.f),
+                       bench::time_step, execute);
     contacts += report.contacts;
   }
   run.SetItemsProcessed(static_cast<std::int64_t>(run.iterations()) * static_cast<std::int64_t>(2 * width * width));

@@ -66,7 +66,8 @@ struct Body {
       return !std::binary_search(cut.begin(), cut.end(), ordered(i, j));
     };
     std::vector<char> kept(points.size(), 0);
-    for (const hmps::Index i : hmps::remove_weak(hmps::vectors(points), {.spacing = spacing}, hmps::KeepNone{}, bonded))
+    for (const hmps::Index i :
+         hmps::supported_particles(hmps::vectors(points), {.spacing = spacing}, hmps::KeepNone{}, bonded))
       kept[i] = 1;
     return kept;
   }

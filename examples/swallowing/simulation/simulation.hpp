@@ -241,7 +241,7 @@ class Simulation {
   /// Gives the control regions the velocities that take them where they are at the end of the step.
   void prescribe() {
     const auto one = [&](const auto& region, const auto& execute) {
-      region.prescribe(time(), time_step(), positions(), velocities(), execute, materials_.speed_limit);
+      region.prescribe(positions(), velocities(), time(), time_step(), materials_.speed_limit, execute);
     };
     // The particles of a large region are shared out among the threads; of small ones, such as plates, the regions.
     const auto large = [](const auto& region) { return region.particles().size() > 1000; };

@@ -17,8 +17,8 @@
 namespace hmps::inline HMPS_ABI {
 
 /// A force that `stable_step` and `relax` can evaluate. `force(x, v, f)` takes read-only views of positions (m) and
-/// velocities (m/s) and writes or adds force densities (N/m3) to `f`, which is zero on entry. Models: the result of
-/// `internal_force`, a lambda that adds several forces.
+/// velocities (m/s) and writes force densities (N/m3) to `f`; since `f` is zero on entry, it may also add to it alone.
+/// Models: the result of `internal_force`, a lambda that adds several forces.
 template <class Force, class T, int D>
 concept ProbedForce = requires(Force& force, const VectorView<const T, D>& x, const VectorView<T, D>& f) {
   force(x, x, f);

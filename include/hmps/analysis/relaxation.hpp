@@ -220,7 +220,7 @@ class RelaxingBody {
 /// on the path. If a load overshoots too far, apply it in increments and call `relax` for each. A start close to the
 /// result saves most.
 ///
-/// @param force  `force(x, v, f)` writes or adds force densities (N/m3), as for `stable_step`: the result of
+/// @param force  `force(x, v, f)` writes force densities (N/m3), as for `stable_step`: the result of
 ///               `internal_force`, or a lambda that adds several forces and the load
 /// @param x      positions in m, changed; those of particles that do not move are kept
 /// @param v      velocities in m/s, zero at the end

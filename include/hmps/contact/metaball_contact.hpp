@@ -37,8 +37,8 @@ namespace hmps::inline HMPS_ABI {
 /// friction. Stores only the lists of candidates, the latest normals and, for `SpringFriction`, elastic slip;
 /// positions, velocities and deformation gradients belong to the caller.
 ///
-/// Declare organs and the pairs that may touch. Then call `contact(x, v, F, dt, f)` in each step, with v = v* of
-/// \paper{2}; it ADDS the force density (N/m3) of \paper{43} to `f`. Views hold all particles; F is read for slaves and
+/// Declare organs and the pairs that may touch. Then call `contact.add(x, v, F, f, dt)` in each step, with v = v* of
+/// \paper{2}; it adds the force density (N/m3) of \paper{43} to `f`. Views hold all particles; F is read for slaves and
 /// masters only. (The rotation of a rigid particle is irrelevant, so its F may stay the identity.)
 ///
 /// The forces of a contact and its reactions sum to zero. Their torque does not vanish exactly, because a reaction acts
@@ -111,21 +111,21 @@ class MetaballContact {
   /// zero. Throws `StateError` if a position or gradient, or the velocity of a particle near another organ, is not
   /// finite. A particle whose gradient is singular but not zero, or that `S` cannot invert, forms no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
-  ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
-                              double dt, const VectorView<T, D>& f, const E& execute = {}) {
+  ContactReport<S> add(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
+                       const VectorView<T, D>& f, double dt, const E& execute = {}) {
     require_size(F, x.size(), "deformation gradients");
-    return evaluate(x, v, F, dt, f, execute);
+    return add_forces(x, v, F, f, dt, execute);
   }
 
   /// The same for particles that do not deform.
   template <class X, class V, class T, Executor E = Serial>
-  ContactReport<S> operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, double dt,
-                              const VectorView<T, D>& f, const E& execute = {}) {
-    return evaluate(x, v, detail::Undeformed<S, D>{}, dt, f, execute);
+  ContactReport<S> add(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<T, D>& f, double dt,
+                       const E& execute = {}) {
+    return add_forces(x, v, detail::Undeformed<S, D>{}, f, dt, execute);
   }
 
-  /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to the call
-  /// above and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
+  /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to `add`
+  /// on zeros and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
   /// `prescribed` particles keep their velocity. Density `rho` in kg/m3: a number, a view or a callable. Throws as
   /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1.
   template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
@@ -223,7 +223,7 @@ class MetaballContact {
   static constexpr std::size_t batch = 8, gather_batch = 64;  // rows per batch: few, because quiet scenes have few
 
   template <class X, class V, class G, class T, class E>
-  ContactReport<S> evaluate(const X& x, const V& v, const G& F, double dt, const T& f, const E& execute) {
+  ContactReport<S> add_forces(const X& x, const V& v, const G& F, const T& f, double dt, const E& execute) {
     require_size(f, x.size(), "contact forces");
     require_apart(f, "contact forces", x, "positions");
     require_apart(f, "contact forces", v, "velocities");

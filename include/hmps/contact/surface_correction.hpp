@@ -28,7 +28,7 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// In each step, call it before the contact, and pass on its result instead of the positions:
 ///
-///     raised(x, F, places);   contact(places, v, F, dt, f);
+///     raised(x, F, places);   contact.add(places, v, F, f, dt);
 template <class S, int D>
 class SurfaceCorrection {
  public:

@@ -46,6 +46,7 @@ class ParticleSet {
   [[nodiscard]] auto end() const { return indices_.end(); }
   /// The number of particles in the set.
   [[nodiscard]] std::size_t size() const { return indices_.size(); }
+  [[nodiscard]] bool empty() const { return indices_.empty(); }
   /// The number of all particles.
   [[nodiscard]] std::size_t scene_size() const { return member_.size(); }
 

@@ -13,6 +13,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/motion/rigid_motion.hpp"
@@ -29,8 +30,9 @@ template <class S, int D, class M = std::function<Pose<double, D>(double)>>
 requires Motion<M, D>
 class ControlRegion {
  public:
-  /// Throws `InputError` if the region has no particle, and for an index out of range, a repeated index, or a reference
-  /// position that is not finite.
+  /// The particles are a list of indices in any order, or a `ParticleSet`. Throws `InputError` if the region has no
+  /// particle, and for an index out of range, a repeated index, a reference position that is not finite, or a set of
+  /// another number of particles.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
     detail::require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
@@ -47,6 +49,13 @@ class ControlRegion {
     }
   }
 
+  ControlRegion(const ParticleSet& particles, const VectorView<const S, D>& reference, M motion)
+      : ControlRegion(particles.indices(), reference, std::move(motion)) {
+    detail::require(particles.scene_size() == reference.size(), "hmps: the set of particles of a control region is of ",
+                    particles.scene_size(), " particles, but there are ", reference.size(),
+                    " reference positions; make both of the same scene");
+  }
+
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
   [[nodiscard]] const M& motion() const { return motion_; }
 
@@ -59,24 +68,23 @@ class ControlRegion {
   }
 
   /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed position at
-  /// `t_next` = t + dt (s). Call it after the last kick and before the drift; in a scene with contact, also before the
-  /// contact. Internal forces kick a prescribed particle like any other, and a wall with such a velocity would cause
-  /// friction where it does not move. Rounding errors in `x` do not accumulate over steps.
+  /// `t` (s), the time at the end of the step. Call it after the last kick and before the drift; in a scene with
+  /// contact, also before the contact. Internal forces kick a prescribed particle like any other, and a wall with such
+  /// a velocity would cause friction where it does not move. Rounding errors in `x` do not accumulate over steps.
   ///
   /// Throws `StateError`, with particle and speed, if the motion exceeds `speed_limit` (m/s) or is not finite, as it
   /// may when a run starts in the middle of a motion without `place`.
   template <class X, class V, Executor E = Serial>
-  void prescribe(double t_next, double dt, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute = {},
-                 double speed_limit = std::numeric_limits<double>::max()) const {
+  void prescribe(const VectorView<X, D>& x, const VectorView<V, D>& v, double t, double dt, double speed_limit,
+                 const E& execute = {}) const {
     detail::require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
                     " s; give a positive step");
-    detail::require(detail::is_finite(t_next), "hmps: a control region is moved to the time ", t_next,
-                    " s; give finite seconds");
+    detail::require(detail::is_finite(t), "hmps: a control region is moved to the time ", t, " s; give finite seconds");
     detail::require(!detail::is_nan(speed_limit), "hmps: the speed limit of a control region is ", speed_limit,
                     " m/s; give a positive number, or leave it out");
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
-    const auto pose = motion_(t_next);
+    const auto pose = motion_(t);
     const double per_step = 1 / dt, largest = std::min(speed_limit * speed_limit, std::numeric_limits<double>::max());
     execute(particles_.size(), [&](std::size_t k) {
       const std::size_t i = particles_[k];
@@ -85,10 +93,17 @@ class ControlRegion {
       const double squared = rate.squaredNorm();
       if (!detail::is_finite(squared) || squared > largest)
         throw StateError(detail::message("hmps: a control region asks particle ", i, " for ", rate.norm(),
-                                         " m/s to be at (", target.transpose(), ") at ", t_next,
+                                         " m/s to be at (", target.transpose(), ") at ", t,
                                          " s; check its keyframes, or place the region where the run starts"));
       v.set(i, rate);
     });
+  }
+
+  /// The same without a limit of speed.
+  template <class X, class V, Executor E = Serial>
+  void prescribe(const VectorView<X, D>& x, const VectorView<V, D>& v, double t, double dt,
+                 const E& execute = {}) const {
+    prescribe(x, v, t, dt, std::numeric_limits<double>::max(), execute);
   }
 
   /// Sets the force densities `f` of the region's particles to zero, so that a kick does not change the velocities that
@@ -102,7 +117,7 @@ class ControlRegion {
   /// Moves the region's particles to their prescribed positions at time `t` (s), with the velocity of the motion
   /// (central difference over 2 microseconds). Use it to start a run in the middle of a motion.
   template <class X, class V>
-  void place(double t, const VectorView<X, D>& x, const VectorView<V, D>& v) const {
+  void place(const VectorView<X, D>& x, const VectorView<V, D>& v, double t) const {
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
     constexpr double h = 1e-6;
@@ -125,5 +140,7 @@ class ControlRegion {
 
 template <class T, int D, class M>
 ControlRegion(std::vector<Index>, const VectorView<T, D>&, M) -> ControlRegion<std::remove_const_t<T>, D, M>;
+template <class T, int D, class M>
+ControlRegion(const ParticleSet&, const VectorView<T, D>&, M) -> ControlRegion<std::remove_const_t<T>, D, M>;
 
 }  // namespace hmps::inline HMPS_ABI

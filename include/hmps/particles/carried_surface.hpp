@@ -146,7 +146,7 @@ class CarriedSurface {
                         "), lies further than 8 spacings of ", spacing,
                         " m from particles that span space; check that surface and particles are of one body in "
                         "one unit, or give a smaller spacing: a wall of one layer carries no surface, nor does a "
-                        "part that remove_weak took away"));
+                        "part that supported_particles left out"));
   }
 
   /// The shares of the particles `found` within `radius`; false where the radius should be larger.

@@ -9,6 +9,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -19,13 +20,14 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The particles that lie within `distance` (m) of the patch, sorted: those to be held, say, by `ControlRegion` or the
-/// `moves` of `relax`. One layer, as README.md advises, is within 0.99 spacings of a face along the lattice; of a face
-/// at an angle to it that takes one to two layers, of which `surface_layers(...).outermost` are one. Throws
-/// `InputError` where there is none, for a distance that is not positive, and for a broken surface.
+/// The particles that lie within `distance` (m) of the patch: those to be held, say, by `hold`, by `ControlRegion` or,
+/// as `~particles_near(...)`, by the `moves` of `relax`. One layer, as README.md advises, is within 0.99 spacings of a
+/// face along the lattice; of a face at an angle to it that takes one to two layers, of which
+/// `surface_layers(...).outermost` are one. Throws `InputError` where there is none, for a distance that is not
+/// positive, and for a broken surface.
 template <class T, class S, Executor E = Serial>
-[[nodiscard]] std::vector<Index> particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
-                                                double distance, const E& execute = {}) {
+[[nodiscard]] ParticleSet particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch, double distance,
+                                         const E& execute = {}) {
   detail::require(detail::is_finite(distance) && distance > 0, "hmps: particles within ", distance,
                   " m of a patch are asked for; give a positive distance, such as the spacing");
   require_finite(points, "the position");
@@ -33,13 +35,11 @@ template <class T, class S, Executor E = Serial>
   std::vector<char> is_near(points.size(), 0);
   execute(points.size(),
           [&](std::size_t i) { is_near[i] = tree.distance(points[i].template cast<double>()) <= distance ? 1 : 0; });
-  std::vector<Index> found;
-  for (std::size_t i = 0; i < is_near.size(); ++i)
-    if (is_near[i] != 0) found.push_back(static_cast<Index>(i));
+  ParticleSet found(points.size(), [&](std::size_t i) { return is_near[i] != 0; });
   detail::require(
       !found.empty(), "hmps: no particle lies within ", distance, " m of ", patch.source,
       "; check that both are in metres, and that the body has particles there: a part thinner than a spacing or two "
-      "has none, or loses them to remove_weak; else give a larger distance");
+      "has none, or supported_particles leaves them out; else give a larger distance");
   return found;
 }
 
@@ -56,7 +56,7 @@ template <class T, class S, Executor E = Serial>
 ///
 ///     const PatchPressure pressure(vectors(reference), patch, l0);
 ///     force(x, v, f);                            // internal forces, N/m3
-///     pressure(x, 2e3, l0 * l0 * l0, f);         // 2 kPa pressing on the patch; a negative one pulls
+///     pressure.add(x, f, 2e3, l0 * l0 * l0);     // 2 kPa pressing on the patch; a negative one pulls
 class PatchPressure {
  public:
   /// @param reference  reference positions of the particles in m
@@ -75,7 +75,7 @@ class PatchPressure {
   /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite and a volume
   /// that is not positive.
   template <class X, PerParticle Vol, class F>
-  void operator()(const VectorView<X, 3>& x, double pressure, const Vol& volume, const VectorView<F, 3>& f) const {
+  void add(const VectorView<X, 3>& x, const VectorView<F, 3>& f, double pressure, const Vol& volume) const {
     require_size(f, x.size(), "force densities");
     require_apart(f, "force densities", x, "positions");
     detail::require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure,

@@ -15,6 +15,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -22,10 +23,10 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Settings of `find_weak` and `remove_weak`. The support of a particle is the smallest eigenvalue of A, \paper{12},
-/// with the weights of \paper{8}, divided by the squared spacing: with the paper's radius 3.48 in a full cubic lattice,
-/// 1.74 at a flat surface, 0.99 at the corner of a cube. Weak support makes A^-1 and thus the stiffness large: the
-/// particle has a small stable step of its own and can explode at rest.
+/// Settings of `find_weak` and `supported_particles`. The support of a particle is the smallest eigenvalue of A,
+/// \paper{12}, with the weights of \paper{8}, divided by the squared spacing: with the paper's radius 3.48 in a full
+/// cubic lattice, 1.74 at a flat surface, 0.99 at the corner of a cube. Weak support makes A^-1 and thus the stiffness
+/// large: the particle has a small stable step of its own and can explode at rest.
 struct SupportSettings {
   double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
   double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
@@ -39,7 +40,7 @@ struct WeakParticle {
   double support;  ///< smallest eigenvalue of A over the squared spacing
 };
 
-/// Protects no particle: the default predicate of `remove_weak`.
+/// Protects no particle: the default predicate of `supported_particles`.
 struct KeepNone {
   constexpr bool operator()(std::size_t) const { return false; }
 };
@@ -116,18 +117,20 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   return weak;
 }
 
-/// Removes weakly supported particles of `points` (m) until none is left, then connected pieces with a smaller fraction
-/// of all particles than `smallest_piece`. Returns the indices of the remaining particles, in order. Since each removal
-/// only weakens the rest, the result is the largest set in which every particle is supported, whatever the order of
-/// removal.
+/// Returns the particles of `points` (m) to keep: those that remain when weakly supported particles are removed until
+/// none is left, then connected pieces with a smaller fraction of all particles than `smallest_piece`. Since each
+/// removal only weakens the rest, the result is the largest set in which every particle is supported, whatever the
+/// order of removal. Its complement, `~set`, contains the particles to be removed.
+///
+///     for (const Index i : supported_particles(vectors(sites), {.spacing = l0})) reference.push_back(sites[i]);
 ///
 /// Of organs one or two particles thick, much may be removed. Particles for which `keep(i)` holds are never removed,
 /// nor is the piece that contains them; apply `find_weak` to the result to see which of them are weak. `thicken` adds
 /// particles instead. Throws as `find_weak` does, and `InputError` if no particle would remain, with the apparent
 /// spacing of the cloud.
 template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
-[[nodiscard]] std::vector<Index> remove_weak(const VectorView<T, D>& points, const SupportSettings& settings,
-                                             const Keep& keep = {}, const Bonded& bonded = {}) {
+[[nodiscard]] ParticleSet supported_particles(const VectorView<T, D>& points, const SupportSettings& settings,
+                                              const Keep& keep = {}, const Bonded& bonded = {}) {
   const detail::Supports<T, D, Bonded> supports(points, settings, bonded);
   const std::size_t n = points.size();
   std::vector<char> present(n, 1);
@@ -170,13 +173,11 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
       for (const std::size_t i : piece) present[i] = 0;
   }
 
-  std::vector<Index> left;
-  for (std::size_t i = 0; i < n; ++i)
-    if (present[i]) left.push_back(static_cast<Index>(i));
+  ParticleSet left(n, is_present);
   if (left.empty() && n > 0) {
     const std::string hint = detail::spacing_hint(points, settings.spacing);
     throw InputError(detail::message(
-        "hmps: remove_weak leaves none of ", n, " particles: each is weakly supported, or of a small piece",
+        "hmps: supported_particles finds none among ", n, " particles: each is weakly supported, or of a small piece",
         hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));
   }
   return left;

@@ -104,8 +104,8 @@ class SiteMap {
 }  // namespace detail
 
 /// Finds lattice sites to add to `points` (m, on one lattice of `settings.spacing`) to support weakly supported
-/// particles. It is the alternative to `remove_weak` for thin organs cut out of a lattice, and thickens them by up to a
-/// spacing where they are weak. In each of up to `passes` passes, every weak particle, in order, gets the free
+/// particles. It is the alternative to `supported_particles` for thin organs cut out of a lattice, and thickens them by
+/// up to a spacing where they are weak. In each of up to `passes` passes, every weak particle, in order, gets the free
 /// neighbouring site along an axis that strengthens its weakest direction most; of equal sites, the one with more
 /// neighbours.
 ///

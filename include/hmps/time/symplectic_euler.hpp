@@ -13,8 +13,9 @@
 /// Time integration of the equation of motion, \paper{1}: symplectic Euler with contact between the half steps,
 /// \paper{2, 3, 4}, as functions to compose:
 ///
-///     force(x, v, f);          kick(v, f, rho, dt);          // v* of Eq. (2)
-///     contact(x, v, F, f);     kick(v, f, rho, dt);          // Eq. (3)
+///     force(x, v, f);               kick(v, f, rho, dt);     // v* of Eq. (2)
+///     zero(f);
+///     contact.add(x, v, F, f, dt);  kick(v, f, rho, dt);     // Eq. (3)
 ///     drift(x, v, dt);                                       // Eq. (4)
 ///
 /// The order of the calls defines the scheme. The functions do not know any force. Every particle moves; forced

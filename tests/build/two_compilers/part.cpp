@@ -42,7 +42,7 @@ extern "C" std::size_t FUNCTION(double* contact_forces, double* internal_forces,
   const auto below = contact.add_organ({"lower", of_lower, of_lower});
   contact.add_pair(below, contact.add_organ({"upper", of_upper, of_upper}));
   for (Vector& density : f) density.setZero();
-  contact(hmps::vectors(x), hmps::vectors(v), hmps::matrices(F), 1e-5, hmps::vectors(f));
+  contact.add(hmps::vectors(x), hmps::vectors(v), hmps::matrices(F), hmps::vectors(f), 1e-5);
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) contact_forces[3 * i + c] = f[i][static_cast<Eigen::Index>(c)];
   return 3 * x.size();

@@ -86,7 +86,7 @@ struct Scene {
   template <class Contact>
   auto apply(Contact& contact, double dt, const Loops& execute = {}) {
     rest();
-    return contact(hmps::vectors(x), hmps::vectors(v), hmps::matrices(F), dt, hmps::vectors(f), execute);
+    return contact.add(hmps::vectors(x), hmps::vectors(v), hmps::matrices(F), hmps::vectors(f), dt, execute);
   }
   [[nodiscard]] Point total() const {
     Point sum = Point::Zero();

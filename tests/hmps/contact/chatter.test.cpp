@@ -63,7 +63,7 @@ Chatter slide(double ratio, double damping) {
     hmps::kick(v.part(0, count), f.part(0, count), rho, dt);
     hold();
     scene.rest();
-    const auto report = contact(x, v, F, dt, f);
+    const auto report = contact.add(x, v, F, f, dt);
     hmps::kick(v, f, rho, dt);
     hold();
     hmps::drift(x, v, dt);

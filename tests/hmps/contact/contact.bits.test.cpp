@@ -83,7 +83,7 @@ std::pair<std::vector<hmps::Vector<double, 3>>, double> pressed(bool fresh_lists
     hold();
     scene.rest();
     if (fresh_lists) contact.refresh();
-    contact(x, v, F, step, f);
+    contact.add(x, v, F, f, step);
     hmps::kick(v, f, 1000, step);
     hold();
     hmps::drift(x, v, step);

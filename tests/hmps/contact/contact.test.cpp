@@ -91,8 +91,8 @@ TYPED_TEST(ContactTest, AddsToTheForcesThatAreThere) {
   pile.apply(contact, dt);
   const auto once = pile.f;
   for (auto& f : pile.f) f.setConstant(S(1e6));
-  contact(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), dt, hmps::vectors(pile.f),
-          bodies::Loops{});
+  contact.add(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), hmps::vectors(pile.f), dt,
+              bodies::Loops{});
   const S biggest = pile.magnitude();
   for (std::size_t i = 0; i < once.size(); ++i)
     EXPECT_LE((pile.f[i] - once[i] - bodies::Scene<S, D>::Point::Constant(S(1e6))).norm(),
@@ -392,7 +392,7 @@ TEST(Overload, UndeformedParticlesNeedNoGradients) {
   pile.apply(with, dt);
   const auto f = pile.f;
   pile.rest();
-  without(hmps::vectors(pile.x), hmps::vectors(pile.v), dt, hmps::vectors(pile.f), bodies::Loops{});
+  without.add(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::vectors(pile.f), dt, bodies::Loops{});
   EXPECT_EQ(f, pile.f);
 }
 
@@ -602,7 +602,7 @@ TEST(Door, RefusesBadInput) {
   pile.declare(good);
   auto few = pile.v;
   few.pop_back();
-  EXPECT_THROW(good(hmps::vectors(pile.x), hmps::vectors(few), dt, hmps::vectors(pile.f)), hmps::InputError);
+  EXPECT_THROW(good.add(hmps::vectors(pile.x), hmps::vectors(few), hmps::vectors(pile.f), dt), hmps::InputError);
   EXPECT_THROW(pile.apply(good, 0.), hmps::InputError);
   EXPECT_THROW(pile.apply(good, nan), hmps::InputError);
   Contact beyond(with_friction);

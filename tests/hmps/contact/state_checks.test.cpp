@@ -30,7 +30,7 @@ std::string said(double gap, Spoil&& spoil) {
   const auto before = pile.f;
   pile.rest();
   try {
-    contact(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), dt, hmps::vectors(pile.f));
+    contact.add(hmps::vectors(pile.x), hmps::vectors(pile.v), hmps::matrices(pile.F), hmps::vectors(pile.f), dt);
   } catch (const E& error) {
     EXPECT_EQ(pile.magnitude(), 0) << "a force was given before the error";
     return error.what();

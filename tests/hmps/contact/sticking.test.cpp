@@ -102,7 +102,7 @@ TEST(Sticking, TravelsWithAThread) {
   contact.add_pair(wall, body, {.roles = hmps::Roles::only_second_is_slave});
   const auto pushed = [&] {
     f.assign(x.size(), Point::Zero());
-    EXPECT_EQ(contact(hmps::vectors(x), hmps::vectors(v), dt, hmps::vectors(f)).contacts, 1U);
+    EXPECT_EQ(contact.add(hmps::vectors(x), hmps::vectors(v), hmps::vectors(f), dt).contacts, 1U);
     return f.back();
   };
   (void)pushed();

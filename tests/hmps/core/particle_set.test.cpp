@@ -35,6 +35,8 @@ TEST(ParticleSet, HasAnOppositeAndIsJoinedWithOthers) {
   EXPECT_EQ((odd | low).indices(), (List{0, 1, 2, 3, 5}));
   EXPECT_EQ((odd & low).indices(), (List{1}));
   EXPECT_EQ((odd & ~odd).size(), 0u);
+  EXPECT_TRUE((odd & ~odd).empty());
+  EXPECT_FALSE(odd.empty());
   EXPECT_THROW((void)(odd | ParticleSet(6, List{})), hmps::InputError);
 }
 

@@ -63,7 +63,7 @@ TYPED_TEST(ControlRegionTest, DriftLandsOnTheMotionAfterThousandsOfSteps) {
   const S h = static_cast<S>(dt);
   double fastest = 0;
   for (int step = 0; step < 4096; ++step) {
-    region.prescribe((step + 1) * dt, dt, x, v);
+    region.prescribe(x, v, (step + 1) * dt, dt);
     for (std::size_t i = 0; i < 8; ++i) {
       fastest = std::max(fastest, static_cast<double>(v[i].norm()));
       x.add(i, Vector<S, D>(v[i] * h));
@@ -90,10 +90,18 @@ TYPED_TEST(ControlRegionTest, UnloadsItsOwnParticlesOnly) {
   EXPECT_THROW(region.unload(hmps::vectors(f)), hmps::InputError);
 }
 
+TYPED_TEST(ControlRegionTest, TakesASetOfParticles) {
+  const auto reference = hmps::vectors(this->at_rest);
+  const hmps::ParticleSet set(8, {5, 1, 6});
+  EXPECT_EQ(ControlRegion(set, reference, this->motion()).particles(), (std::vector<Index>{1, 5, 6}));
+  EXPECT_THROW(ControlRegion(hmps::ParticleSet(9, {5, 1, 6}), reference, this->motion()), hmps::InputError);
+  EXPECT_THROW(ControlRegion(set & ~set, reference, this->motion()), hmps::InputError);
+}
+
 TYPED_TEST(ControlRegionTest, StartsWithoutAJumpOfVelocity) {
   const ControlRegion region({1, 5}, hmps::vectors(this->at_rest), this->motion());
   const double dt = 1e-5;
-  region.prescribe(dt, dt, hmps::vectors(this->positions), hmps::vectors(this->velocities));
+  region.prescribe(hmps::vectors(this->positions), hmps::vectors(this->velocities), dt, dt);
   // Positions rise as the square of time: velocity below the largest acceleration, some 1 m/s2, times dt,
   // beside the rounding of positions over dt.
   const double rounding = 0.05 * std::numeric_limits<typename TestFixture::Scalar>::epsilon() / dt;
@@ -108,8 +116,8 @@ TYPED_TEST(ControlRegionTest, PlacesARunThatStartsWithinTheMotion) {
   const auto x = hmps::vectors(this->positions);
   const auto v = hmps::vectors(this->velocities);
   const double dt = 1e-3;
-  EXPECT_THROW(region.prescribe(0.4 + dt, dt, x, v, hmps::Serial{}, 1.0), hmps::StateError);
-  region.place(0.4, x, v);
+  EXPECT_THROW(region.prescribe(x, v, 0.4 + dt, dt, 1.0), hmps::StateError);
+  region.place(x, v, 0.4);
   for (std::size_t k = 0; k < 2; ++k) {
     const Index i = region.particles()[k];
     const Vector<double, D> at = this->at_rest[i].template cast<double>();
@@ -118,7 +126,7 @@ TYPED_TEST(ControlRegionTest, PlacesARunThatStartsWithinTheMotion) {
     const Vector<double, D> speed = velocity(motion(0.4), motion.rate(0.4), at);
     EXPECT_LE((v[i].template cast<double>() - speed).norm(), 1e-7);
   }
-  EXPECT_NO_THROW(region.prescribe(0.4 + dt, dt, x, v, hmps::Serial{}, 1.0));
+  EXPECT_NO_THROW(region.prescribe(x, v, 0.4 + dt, dt, 1.0));
   EXPECT_EQ(this->positions[0], this->at_rest[0]);
 }
 
@@ -129,7 +137,7 @@ TYPED_TEST(ControlRegionTest, TakesMotionsThatAreNotRigid) {
     return [t](const Vector<double, D>& X) { return Vector<double, D>((1 + t) * X); };
   };
   const ControlRegion region({4}, hmps::vectors(this->at_rest), stretch);
-  region.prescribe(0.5, 0.25, hmps::vectors(this->positions), hmps::vectors(this->velocities));
+  region.prescribe(hmps::vectors(this->positions), hmps::vectors(this->velocities), 0.5, 0.25);
   EXPECT_LE((this->velocities[4] - S(2) * this->at_rest[4]).norm(), S(1e-7));
 }
 
@@ -143,12 +151,12 @@ TYPED_TEST(ControlRegionTest, NamesWhatIsWrong) {
   const ControlRegion<S, D> region({3}, reference, motion);
   const auto x = hmps::vectors(this->positions);
   const auto v = hmps::vectors(this->velocities);
-  EXPECT_THROW(region.prescribe(0.1, 0.0, x, v), hmps::InputError);
-  EXPECT_THROW(region.prescribe(0.1, 0.1, x.part(0, 7), v), hmps::InputError);
-  EXPECT_THROW(region.prescribe(0.1, 0.1, x, v.part(0, 7)), hmps::InputError);
+  EXPECT_THROW(region.prescribe(x, v, 0.1, 0.0), hmps::InputError);
+  EXPECT_THROW(region.prescribe(x.part(0, 7), v, 0.1, 0.1), hmps::InputError);
+  EXPECT_THROW(region.prescribe(x, v.part(0, 7), 0.1, 0.1), hmps::InputError);
   this->positions[3][0] = std::numeric_limits<S>::quiet_NaN();
   try {
-    region.prescribe(0.1, 0.1, x, v);
+    region.prescribe(x, v, 0.1, 0.1);
     ADD_FAILURE() << "a position that is not a number was accepted";
   } catch (const hmps::StateError& error) {
     EXPECT_NE(std::string(error.what()).find("particle 3"), std::string::npos) << error.what();

@@ -47,7 +47,7 @@ TEST(PatchPressure, SumsToPressureTimesAreaThatFollowsTheBody) {
   Body body = brick();
   const auto top = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] > 0.5; });
   const PatchPressure load(vectors(body.x), top, l0);
-  load(vectors(body.x), pressure, particle, vectors(body.f));
+  load.add(vectors(body.x), vectors(body.f), pressure, particle);
   EXPECT_NEAR((body.force() - V(0, 0, -pressure * 0.016 * 0.012)).norm(), 0, rounding);
   // About its middle it has no torque.
   EXPECT_NEAR((body.torque() - V(0.008, 0.006, 0.02).cross(body.force())).norm(), 0, rounding);
@@ -57,7 +57,7 @@ TEST(PatchPressure, SumsToPressureTimesAreaThatFollowsTheBody) {
   const Matrix<double, 3> stretch = V(2, 1, 0.5).asDiagonal();
   body.move(R * stretch, V(1, 0, -1));
   std::fill(body.f.begin(), body.f.end(), V::Zero());
-  load(vectors(body.x), pressure, particle, vectors(body.f));
+  load.add(vectors(body.x), vectors(body.f), pressure, particle);
   EXPECT_NEAR((body.force() + pressure * 2 * 0.016 * 0.012 * R.col(2)).norm(), 0, rounding);
   EXPECT_NEAR((load.area_at(vectors(body.x)) - 2 * 0.016 * 0.012 * R.col(2)).norm(), 0, 1e-13 * 1e-3);
 }
@@ -67,7 +67,7 @@ TEST(PatchPressure, OnAClosedSurfaceHasNoForceNorTorque) {
     const PatchPressure load(vectors(body.x), body.mesh, l0);
     // Any motion, also one that is not affine.
     for (V& place : body.x) place += 0.1 * V(place[1], place[2] * place[0] / l0, place[0] * place[0] / l0);
-    load(vectors(body.x), pressure, particle, vectors(body.f));
+    load.add(vectors(body.x), vectors(body.f), pressure, particle);
     EXPECT_NEAR(body.force().norm(), 0, rounding);
     EXPECT_NEAR(body.torque().norm(), 0, rounding);
   }
@@ -76,7 +76,7 @@ TEST(PatchPressure, OnAClosedSurfaceHasNoForceNorTorque) {
 TEST(PatchPressure, DoesTheWorkOfAPressureOnTheVolume) {
   Body body = ball();
   const PatchPressure load(vectors(body.x), body.mesh, l0);
-  load(vectors(body.x), pressure, particle, vectors(body.f));
+  load.add(vectors(body.x), vectors(body.f), pressure, particle);
   Matrix<double, 3> rate;
   rate << 0.3, 0.5, -0.2, 0.1, 0.4, 0.6, 0, -0.7, 0.5;  // velocity gradient in 1/s
   double power = 0;
@@ -89,8 +89,8 @@ TEST(PatchPressure, TakesParticlesOfTheirOwnVolumeAndAddsToWhatIsThere) {
   const PatchPressure load(vectors(body.x), body.mesh, l0);
   std::vector<double> volumes(body.x.size(), particle / 2);
   std::vector<V> half(body.x.size(), V(0, 0, 1)), whole(body.x.size(), V::Zero());
-  load(vectors(body.x), pressure, scalars(volumes), vectors(half));
-  load(vectors(body.x), pressure, particle, vectors(whole));
+  load.add(vectors(body.x), vectors(half), pressure, scalars(volumes));
+  load.add(vectors(body.x), vectors(whole), pressure, particle);
   for (std::size_t i = 0; i < half.size(); ++i)
     EXPECT_NEAR((half[i] - V(0, 0, 1) - 2 * whole[i]).norm(), 0, 1e-12 * (1 + half[i].norm()));
 }
@@ -100,6 +100,7 @@ TEST(PatchPressure, ParticlesNearAPatchAreThoseOfItsLayer) {
   const auto base = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] < -0.5; });
   const auto held = particles_near(vectors(body.x), base, 0.99 * l0);
   EXPECT_EQ(held.size(), 8u * 6u);
+  EXPECT_EQ(held.scene_size(), body.x.size());
   for (const Index i : held) EXPECT_NEAR(body.x[i][2], l0 / 2, 1e-9);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0.4 * l0), InputError);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0), InputError);
@@ -109,10 +110,11 @@ TEST(PatchPressure, RefusesWhatDoesNotFit) {
   Body body = brick();
   const PatchPressure load(vectors(body.x), body.mesh, l0);
   std::vector<V> few(3);
-  EXPECT_THROW(load(vectors(body.x), pressure, particle, vectors(few)), InputError);
-  EXPECT_THROW(load(vectors(few), pressure, particle, vectors(few)), InputError);
-  EXPECT_THROW(load(vectors(body.x), pressure, 0.0, vectors(body.f)), InputError);
-  EXPECT_THROW(load(vectors(body.x), std::numeric_limits<double>::infinity(), particle, vectors(body.f)), InputError);
+  EXPECT_THROW(load.add(vectors(body.x), vectors(few), pressure, particle), InputError);
+  EXPECT_THROW(load.add(vectors(few), vectors(few), pressure, particle), InputError);
+  EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, 0.0), InputError);
+  EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), std::numeric_limits<double>::infinity(), particle),
+               InputError);
 }
 
 }  // namespace
