@@ -226,7 +226,19 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
 
 }  // namespace detail
 
-/// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart.
+/// Throws `hmps::InputError` if a control region of the scene has no particle: nothing of it would move, and the run
+/// would be one of another model.
+inline void require_particles(const Scene& scene, Model model) {
+  const auto particles = scene.particles_of_regions();
+  for (std::size_t r = 0; r < particles.size(); ++r)
+    hmps::require(!particles[r].empty(), "control region ", scene.regions[r].name, " of model ",
+                  model == Model::X ? "X" : "Y", " has no particle at a spacing of ", 1e3 * scene.spacing,
+                  " mm: no column of the lattice lies in it, and nothing of it would move; widen it in "
+                  "scene/regions.hpp, or give a finer --spacing or another --lattice-shift");
+}
+
+/// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart or a control
+/// region has no particle.
 [[nodiscard]] inline Scene make_scene(const SceneSettings& settings) {
   const double l0 = settings.spacing;
   hmps::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
@@ -245,7 +257,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
   scene.spacing = l0;
   scene.elastic_count = body.points.size();
   scene.removed = body.removed;
-  scene.regions = body_regions();
+  scene.regions = body_regions(settings.model);
   scene.organ = body.organ;
   scene.cut = body.cut;
   for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -266,6 +278,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     if (region.name == "E" || region.name == "F") region.placement = placement;
   if (settings.constrictors) detail::add_constrictors(scene, anatomy, read_constrictors(settings.data));
   std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
+  require_particles(scene, settings.model);
   return scene;
 }
 
