@@ -180,7 +180,8 @@ inline void declare_contacts(Scene& scene, const Body& body) {
 
 /// Appends the plates of region H and their contact with the wall to `scene`. Nothing is bonded to them, so that they
 /// need no lattice: rows of particles a spacing apart follow the wall at one distance from its drawn inner surface,
-/// whatever the spacing.
+/// whatever the spacing. The wall's own particles lie up to half a spacing outside of it, in the plates at 2.4 mm: so
+/// these start clear of it, further out by as much, and reach their place in the first half second.
 inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constrictors& constrictors) {
   const double l0 = 1e3 * scene.spacing;
   // Two layers of particles carry all of a metaball wall.
@@ -195,11 +196,13 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     scene.organ.push_back(Organ::constrictors);
     scene.region.push_back(static_cast<int>(region));
   };
+  constexpr double outwards = 57.5 * std::numbers::pi / 180;  // from the posterior axis, the middle of the plates' arc
   int row = 0;
   for (double z = constrictors.bottom() + l0 / 2; z < constrictors.top(); z += l0, ++row) {
+    const Point clear = l0 / 2 * Point(std::cos(outwards), std::sin(outwards), 0);
     for (const int side : {-1, 1})
-      scene.regions.push_back(
-          {hmps::message("H", row, side < 0 ? " left" : " right"), Region::door, row, double(side), z});
+      scene.regions.push_back({hmps::message("H", row, side < 0 ? " left" : " right"), Region::door, row, double(side),
+                               z, -1e-3 * Point(clear[0], side * clear[1], 0)});
     const std::size_t right = scene.regions.size() - 1;
     const auto [_, widest, back, half_width, front] = anatomy.pharynx.profile(z);
     for (int layer = 0; layer < layers; ++layer) {
@@ -217,8 +220,9 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
         if (std::atan2(x[1], x[0] - widest) * 180 / std::numbers::pi < Anatomy::plate_from) break;
         if (walked < l0) continue;
         walked -= l0;
-        add(x, right);
-        add(Point(x[0], -x[1], x[2]), right - 1);
+        const Point start = x + clear;
+        add(start, right);
+        add(Point(start[0], -start[1], start[2]), right - 1);
       }
     }
   }

@@ -23,7 +23,7 @@ struct Region {
   int number = 0;
   double side = 0;                  ///< -1 or 1 for one of a pair, the sign of y
   double height = 0;                ///< mm
-  Point placement = Point::Zero();  ///< m, by which it moves in the first half second, see `leaf_placement`
+  Point placement = Point::Zero();  ///< m, by which it moves in the first half second: E, F and H
 };
 
 /// Middle of the control regions of the tongue in degrees about its centre, and their half angle.
