@@ -149,19 +149,13 @@ class Run {
                                    std::round(100 * share), " % of the limit at rest; ", simulation_.limited_by(), " (",
                                    name(scene_.organ[limit.particle]), ")\n");
   }
-  /// Whether the model has the control region: model Y has no F, and H can be left out.
-  [[nodiscard]] bool has_region(std::string_view name) const {
-    return (name != "F" || chosen_.model == Model::X) && (name != "H" || options_.constrictors);
-  }
-  /// How many particles each control region has, those of one name together. One without any moves nothing: that must
-  /// not go unseen.
+  /// How many particles each control region has, those of one name together.
   void describe_regions() const {
     const auto particles = scene_.particles_of_regions();
     std::vector<std::pair<std::string, std::size_t>> counts;
     for (std::size_t r = 0; r < particles.size(); ++r) {
       const Region& region = scene_.regions[r];
       const std::string name = region.kind == Region::door ? "H" : region.name;
-      if (!has_region(name)) continue;
       auto at = std::find_if(counts.begin(), counts.end(), [&](const auto& count) { return count.first == name; });
       if (at == counts.end()) at = counts.insert(counts.end(), {name, 0});
       at->second += particles[r].size();
@@ -171,11 +165,6 @@ class Run {
     for (const auto& [name, count] : counts)
       text += examples::message(std::exchange(separator, ", "), name, " ", count);
     std::cerr << text << '\n';
-    for (const auto& [name, count] : counts)
-      if (count == 0)
-        std::cerr << examples::message(chosen_.name, ": warning: control region ", name,
-                                       " has no particle at a spacing of ", 1e3 * scene_.spacing,
-                                       " mm and is left out: nothing of it moves\n");
   }
   /// Keeps how near the step is to the limit, and warns where it is beyond.
   void compare_step(double time) {

@@ -116,10 +116,19 @@ struct Tongue {
     const auto [angle, radius, row] = polar(x);
     if (angle < -64 || angle > 152) return 1;
     const auto [_, R, W, t] = row;
-    const double outer = hmps::superellipse(radius, x[1], R, W, 2.6);
-    const double inner = hmps::superellipse(radius, x[1], R - t, W - t, 2.6);
-    return std::max({outer, -inner, R - t - 4.5 - radius});
+    const double outer = hmps::superellipse(radius, x[1], R, W, exponent);
+    const double inner = hmps::superellipse(radius, x[1], R - t, W - t, exponent);
+    return std::max({outer, -inner, lower_edge(row) - radius});
   }
+  /// Half width (mm) of the shell at its lower edge, where it is widest: y of the tongue's rim.
+  [[nodiscard]] static double rim(const std::array<double, 4>& row) {
+    return row[2] * std::pow(1 - std::pow(lower_edge(row) / row[1], exponent), 1 / exponent);
+  }
+
+ private:
+  static constexpr double exponent = 2.6;
+  /// Radius (mm) at which the sides of the shell end.
+  [[nodiscard]] static double lower_edge(const std::array<double, 4>& row) { return row[1] - row[3] - 4.5; }
 };
 
 /// The soft palate with the uvula: from the hard palate backwards and down.

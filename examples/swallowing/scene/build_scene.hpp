@@ -182,7 +182,8 @@ inline void declare_contacts(Scene& scene, const Body& body) {
 
 /// Appends the plates of region H and their contact with the wall to `scene`. Nothing is bonded to them, so that they
 /// need no lattice: rows of particles a spacing apart follow the wall at one distance from its drawn inner surface,
-/// whatever the spacing.
+/// whatever the spacing. The wall's own particles lie up to half a spacing outside of it, in the plates at 2.4 mm: so
+/// these start clear of it, further out by as much, and reach their place in the first half second.
 inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constrictors& constrictors) {
   const double l0 = 1e3 * scene.spacing;
   // Two layers of particles carry all of a metaball wall.
@@ -197,11 +198,13 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     scene.organ.push_back(Organ::constrictors);
     scene.region.push_back(static_cast<int>(region));
   };
+  constexpr double outwards = 57.5 * std::numbers::pi / 180;  // from the posterior axis, the middle of the plates' arc
   int row = 0;
   for (double z = constrictors.bottom() + l0 / 2; z < constrictors.top(); z += l0, ++row) {
+    const Point clear = l0 / 2 * Point(std::cos(outwards), std::sin(outwards), 0);
     for (const int side : {-1, 1})
-      scene.regions.push_back(
-          {examples::message("H", row, side < 0 ? " left" : " right"), Region::door, row, double(side), z});
+      scene.regions.push_back({examples::message("H", row, side < 0 ? " left" : " right"), Region::door, row,
+                               double(side), z, -1e-3 * Point(clear[0], side * clear[1], 0)});
     const std::size_t right = scene.regions.size() - 1;
     const auto [_, widest, back, half_width, front] = anatomy.pharynx.profile(z);
     for (int layer = 0; layer < layers; ++layer) {
@@ -219,8 +222,9 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
         if (std::atan2(x[1], x[0] - widest) * 180 / std::numbers::pi < Anatomy::plate_from) break;
         if (walked < l0) continue;
         walked -= l0;
-        add(x, right);
-        add(Point(x[0], -x[1], x[2]), right - 1);
+        const Point start = x + clear;
+        add(start, right);
+        add(Point(start[0], -start[1], start[2]), right - 1);
       }
     }
   }
@@ -228,7 +232,19 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
 
 }  // namespace detail
 
-/// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart.
+/// Throws `hmps::InputError` if a control region of the scene has no particle: nothing of it would move, and the run
+/// would be one of another model.
+inline void require_particles(const Scene& scene, Model model) {
+  const auto particles = scene.particles_of_regions();
+  for (std::size_t r = 0; r < particles.size(); ++r)
+    examples::require(!particles[r].empty(), "control region ", scene.regions[r].name, " of model ",
+                      model == Model::X ? "X" : "Y", " has no particle at a spacing of ", 1e3 * scene.spacing,
+                      " mm: no column of the lattice lies in it, and nothing of it would move; widen it in "
+                      "scene/regions.hpp, or give a finer --spacing or another --lattice-shift");
+}
+
+/// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart or a control
+/// region has no particle.
 [[nodiscard]] inline Scene make_scene(const SceneSettings& settings) {
   const double l0 = settings.spacing;
   examples::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
@@ -247,7 +263,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
   scene.spacing = l0;
   scene.elastic_count = body.points.size();
   scene.removed = body.removed;
-  scene.regions = body_regions();
+  scene.regions = body_regions(settings.model);
   scene.organ = body.organ;
   scene.cut = body.cut;
   for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -268,6 +284,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     if (region.name == "E" || region.name == "F") region.placement = placement;
   if (settings.constrictors) detail::add_constrictors(scene, anatomy, read_constrictors(settings.data));
   std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
+  require_particles(scene, settings.model);
   return scene;
 }
 

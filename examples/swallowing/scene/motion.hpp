@@ -122,6 +122,7 @@ class Motion {
       const double angle = constrictors_.angle(region.height, t) * std::numbers::pi / 180;
       pose.pivot = 1e-3 * Vector(hinge_x, region.side * hinge_y, 0);
       pose.rotation = hmps::rotation<double>(Vector(0, 0, region.side * angle));
+      pose.translation = pose.rotation * placement;  // It turns with the door.
       return pose;
     }
     for (const auto& m : moved_)

@@ -24,7 +24,7 @@ struct Region {
   int number = 0;
   double side = 0;                  ///< -1 or 1 for one of a pair, the sign of y
   double height = 0;                ///< mm
-  Point placement = Point::Zero();  ///< m, by which it moves in the first half second, see `leaf_placement`
+  Point placement = Point::Zero();  ///< m, by which it moves in the first half second: E, F and H
 };
 
 /// Middle of the control regions of the tongue in degrees about its centre, and their half angle.
@@ -34,8 +34,12 @@ struct TongueRegion {
 inline constexpr std::array<TongueRegion, 8> tongue_regions{
     {{-54, 8}, {1, 13}, {50, 10}, {74, 4}, {90, 4}, {106, 4}, {122, 4}, {138, 4}}};
 
-/// The control regions of the deforming body, in a fixed order.
-[[nodiscard]] inline std::vector<Region> body_regions() {
+/// mm of the tongue's side, from its rim inwards, that region A holds: one and a half of the coarsest spacing, so that
+/// a column of any lattice lies in it.
+inline constexpr double rim_width = 3.6;
+
+/// The control regions of the deforming body, in a fixed order; F, which model Y lacks, is the last.
+[[nodiscard]] inline std::vector<Region> body_regions(Model model) {
   std::vector<Region> regions{{"fixed", Region::fixed}};
   for (int k = 0; k < 8; ++k) regions.push_back({examples::message("B", k), Region::moved, k});
   regions.push_back({"A", Region::moved, 10});
@@ -45,14 +49,14 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
   regions.push_back({"D left", Region::moved, 31, -1});
   regions.push_back({"D right", Region::moved, 31, 1});
   regions.push_back({"E", Region::moved, 40});
-  regions.push_back({"F", Region::moved, 41});
   regions.push_back({"G", Region::fixed});
+  if (model == Model::X) regions.push_back({"F", Region::moved, 41});
   return regions;
 }
 
 /// The place in `body_regions` of the region that a particle of `organ` at `x` (mm) belongs to, -1 for none.
 [[nodiscard]] inline int region_at(const Anatomy& anatomy, Organ organ, const Point& x, Model model) {
-  constexpr int fixed = 0, B = 1, A = 9, S1 = 10, S2 = 11, C = 12, D = 13, E = 15, F = 16, G = 17;
+  constexpr int fixed = 0, B = 1, A = 9, S1 = 10, S2 = 11, C = 12, D = 13, E = 15, G = 16, F = 17;
   const double y = std::abs(x[1]);
   switch (organ) {
     case Organ::vertebrae:
@@ -64,10 +68,12 @@ inline constexpr std::array<TongueRegion, 8> tongue_regions{
     case Organ::tongue: {
       const auto [angle, radius, row] = anatomy.tongue.polar(x);
       const double depth = row[1] - radius;
-      if (y < 6 && depth < 4.8)
+      // At 2.4 mm a column of the lattice stands at 6 mm: rounding, which differs between the two sides and between
+      // compilers, must not decide whether it belongs.
+      if (y < 6 + 1e-6 && depth < 4.8)
         for (std::size_t k = 0; k < tongue_regions.size(); ++k)
           if (std::abs(angle - tongue_regions[k].angle) < tongue_regions[k].half) return B + static_cast<int>(k);
-      if (angle > 62 && y > 0.74 * row[2] && depth < 9.5) return A;
+      if (angle > 62 && y > Tongue::rim(row) - rim_width) return A;
       return -1;
     }
     case Organ::soft_palate: {

@@ -272,9 +272,8 @@ class Simulation {
   void add_regions(const Motion& motion) {
     const auto particles = scene_->particles_of_regions();
     for (std::size_t r = 0; r < particles.size(); ++r)
-      if (!particles[r].empty())
-        regions_.emplace_back(particles[r], hmps::vectors(scene_->reference),
-                              [&motion, region = scene_->regions[r]](double t) { return motion(region, t); });
+      regions_.emplace_back(particles[r], hmps::vectors(scene_->reference),
+                            [&motion, region = scene_->regions[r]](double t) { return motion(region, t); });
   }
 
   const Scene* scene_;
