@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -16,7 +17,8 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const std::string name = "hmps_" + std::string(test->test_suite_name()) + "_" + test->name() + "_";
+    std::string name = "hmps_" + std::string(test->test_suite_name()) + "_" + test->name() + "_";
+    std::replace(name.begin(), name.end(), '/', '_');  // as in the names of typed tests
     for (int count = 0; count < 1000; ++count) {
       path_ = std::filesystem::temp_directory_path() / (name + std::to_string(count));
       if (std::filesystem::create_directory(path_)) return;
