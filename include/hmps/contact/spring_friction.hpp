@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
@@ -57,10 +59,12 @@ struct SpringForce {
   bool sticks;           ///< Whether the force is below the limit.
 };
 
-/// Friction by return mapping. The elastic slip `trial` (m, of the wall relative to the slave) is cut to what `limit` =
-/// mu |f_nor| (N/m3) supports at `stiffness` (N/m4); the rest is sliding. The force is that of the spring and of a
-/// damping (N s/m4) of the slip velocity `velocity` (m/s), capped at `limit`. Both vectors are tangential; without
-/// stiffness no elastic slip remains.
+/// Friction by return mapping: a spring and a damper in parallel, in front of a slider. The spring has the elastic slip
+/// `trial` (m, of the wall relative to the slave) and the stiffness `stiffness` (N/m4), the damper the slip velocity
+/// `velocity` (m/s) and `damping` (N s/m4). If their force exceeds `limit` = mu |f_nor| (N/m3), the slider moves: the
+/// force is cut to the limit, and the spring is shortened to what the damper leaves of it, but not reversed. A slave
+/// that slows down thus sticks below the limit and not at it. Both vectors are tangential; without stiffness no elastic
+/// slip remains.
 template <class S, int D>
 [[nodiscard]] SpringForce<S, D> spring_friction(const Vector<S, D>& trial, const Vector<S, D>& velocity, S stiffness,
                                                 S damping, S limit) {
@@ -70,10 +74,16 @@ template <class S, int D>
     result.elastic.setZero();
   else if (spring > limit)
     result.elastic *= limit / spring;
-  result.force = stiffness * result.elastic + damping * velocity;
+  const Vector<S, D> viscous = damping * velocity;
+  result.force = stiffness * result.elastic + viscous;
   const S size = result.force.norm();
   result.sticks = size <= limit;
-  if (!result.sticks) result.force *= limit / size;
+  if (result.sticks) return result;
+  result.force *= limit / size;
+  if (const S held = stiffness * result.elastic.squaredNorm(); held > S(0)) {
+    const S left = (result.force - viscous).dot(result.elastic) / held;
+    result.elastic *= left > S(0) ? std::min(left, S(1)) : S(0);
+  }
   return result;
 }
 

@@ -40,12 +40,38 @@ TEST(SpringFriction, SlidesBeyondTheLimit) {
   EXPECT_TRUE((hmps::spring_friction<double, 3>(back, Point::Zero(), 1e9, 1e5, 1e4)).sticks);
 }
 
-/// The damper may reach the limit before the spring does; it leaves no slip behind.
-TEST(SpringFriction, DampsUpToTheLimitWithoutSliding) {
-  const auto found = hmps::spring_friction<double, 3>(Point(1e-6, 0, 0), Point(0, 1, 0), 1e9, 1e5, 1e4);
+/// While it slides, the spring holds what the damper leaves of the limit.
+TEST(SpringFriction, SharesTheLimitWithTheDamper) {
+  const Point slip(3e-5, 4e-5, 0), velocity(0.03, 0.04, 0);  // the damper takes half of the limit
+  const auto found = hmps::spring_friction<double, 3>(slip, velocity, 1e9, 1e5, 1e4);
   EXPECT_FALSE(found.sticks);
   EXPECT_NEAR(found.force.norm(), 1e4, 1e-8);
-  EXPECT_EQ(found.elastic, Point(1e-6, 0, 0));
+  EXPECT_NEAR((1e9 * found.elastic + 1e5 * velocity - found.force).norm(), 0, 1e-8);
+}
+
+/// A damper that takes all of the limit leaves nothing, and never turns the spring against the slip; one that slides
+/// back does not stretch it.
+TEST(SpringFriction, DoesNotReverseOrStretchTheSpring) {
+  const Point slip(1e-6, 0, 0);
+  const auto fast = hmps::spring_friction<double, 3>(slip, Point(1, 0, 0), 1e9, 1e5, 1e4);
+  EXPECT_NEAR((fast.force - Point(1e4, 0, 0)).norm(), 0, 1e-8);
+  EXPECT_EQ(fast.elastic, Point::Zero());
+  const auto back = hmps::spring_friction<double, 3>(slip, Point(-1, 0, 0), 1e9, 1e5, 1e4);
+  EXPECT_NEAR((back.force + Point(1e4, 0, 0)).norm(), 0, 1e-8);
+  EXPECT_EQ(back.elastic, slip);
+}
+
+/// A slip that slows down by `a` comes to rest below the limit L, not at it, where its force would follow the normal
+/// force. With tau = c / k, it sticks when v = a tau, with the spring at L - c a tau; until it rests, it slips another
+/// a tau^2 / 2. That is to first order in dt / tau, which is 1/200.
+TEST(SpringFriction, ComesToRestBelowTheLimit) {
+  constexpr double k = 1e9, c = 1e5, tau = c / k, dt = tau / 200, a = 1, limit = 4 * k * a * tau * tau;
+  Point elastic = Point::Zero();
+  for (double v = 5 * a * tau; v > 0; v -= a * dt)
+    elastic = hmps::spring_friction<double, 3>(elastic + Point(v * dt, 0, 0), Point(v, 0, 0), k, c, limit).elastic;
+  const auto rest = hmps::spring_friction<double, 3>(elastic, Point::Zero(), k, c, limit);
+  EXPECT_TRUE(rest.sticks);
+  EXPECT_NEAR(rest.force[0], limit - k * a * tau * tau / 2, 0.02 * k * a * tau * tau);
 }
 
 TEST(SpringFriction, HoldsNothingWithoutALoad) {
@@ -59,16 +85,19 @@ TEST(SpringFriction, HoldsNothingWithoutALoad) {
 /// A closed path of slip gives back no more than was put in: the work on the slave, force times slip of the wall
 /// against it, is not negative.
 TEST(SpringFriction, TakesEnergyOnAClosedPath) {
-  Point elastic = Point::Zero(), last = Point::Zero();
-  double work = 0;
-  for (int k = 0; k < 4000; ++k) {
-    const double t = 2e-3 * 3.14159265358979323846 * k;
-    const Point place(2e-5 * std::sin(t), 1e-5 * std::sin(2 * t), 0);
-    const auto found = hmps::spring_friction<double, 3>(elastic + place - last, Point::Zero(), 1e9, 0, 1e4);
-    work += found.force.dot(place - last);
-    elastic = found.elastic, last = place;
+  constexpr double dt = 1e-6;
+  for (const double damping : {0., 1e5}) {
+    Point elastic = Point::Zero(), last = Point::Zero();
+    double work = 0;
+    for (int k = 0; k < 4000; ++k) {
+      const double t = 2e-3 * 3.14159265358979323846 * k;
+      const Point place(2e-5 * std::sin(t), 1e-5 * std::sin(2 * t), 0), step = place - last;
+      const auto found = hmps::spring_friction<double, 3>(elastic + step, step / dt, 1e9, damping, 1e4);
+      work += found.force.dot(step);
+      elastic = found.elastic, last = place;
+    }
+    EXPECT_GT(work, 1e4 * 1e-5) << "it slides, by more than the elastic slip";
   }
-  EXPECT_GT(work, 1e4 * 1e-5) << "it slides, by more than the elastic slip";
 }
 
 }  // namespace
