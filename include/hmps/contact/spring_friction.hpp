@@ -21,6 +21,10 @@ namespace hmps::inline HMPS_ABI {
 /// back more than the whole elastic slip within a step. Below twice that limit, a mode that the share stops at once is
 /// stable at every step that is stable without contact.
 ///
+/// Spring and damper share the limit, so that a slave that slows down sticks below it and not at it: the friction of
+/// slaves at the limit follows their normal force, which feeds vibrations. A body without viscosity can keep shaking
+/// and slide below the limit all the same; see docs/theory.md.
+///
 /// Elastic slip follows the positions that contact receives, whoever moves them. It rotates with the masters. It is
 /// lost where contact is lost, by `refresh`, and therefore when a program is stopped and resumed. Evaluating the same
 /// state twice keeps it, but a wall that rotates then seems to stand still, which changes the damping. Contact stores
