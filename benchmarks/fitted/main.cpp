@@ -13,7 +13,9 @@ int main(int argc, char** argv) {
   std::vector<double> spacings{2.4, 1.8, 1.6, 1.2};
   std::vector<std::string> chosen;
   study.app.add_option("spacings", spacings, "of the plates, in mm")->capture_default_str();
-  study.app.add_option("--only", chosen, "tables to make anew: plate, any, ring, bar")->type_name("NAME");
+  study.app.add_option("--only", chosen, "tables to make anew: plate, any, ring, bar")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"plate", "any", "ring", "bar"}));
   return study.run(argc, argv, [&] {
     if (study.quick) spacings = {2.4};
     for (double& spacing : spacings) spacing *= 1e-3;
