@@ -5,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include <hmps/core/error.hpp>
+
 #include "report/text.hpp"
 
 namespace fitted {
@@ -94,7 +96,9 @@ double FittedBody::frequency(const std::vector<Vector>& shape, double density) {
       hmps::stable_step(internal_, body_.x(), body_.v(), density, {.spacing = body_.spacing, .moves = moves}).limit;
   std::vector<double> crossings;
   double last = 0;
+  constexpr long most_steps = 1'000'000;  // the slowest of these bodies passes zero three times in some ten thousand
   for (long step = 1; crossings.size() < 3; ++step) {
+    if (step > most_steps) throw hmps::StateError("a body does not vibrate along the shape in which it was started");
     internal_(body_.x(), body_.v(), body_.f());
     hmps::kick(body_.v(), body_.f(), density, dt);
     for (std::size_t i = moving_; i < body_.size(); ++i) body_.velocity[i].setZero();

@@ -16,8 +16,8 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Prefetches the entries of `view` for the particles of `block`; does nothing beyond the last block. The processor does
-/// this itself only where particles are consecutive.
+/// Prefetches the entries of `view` for the particles of `block`; does nothing beyond the last block. The processor
+/// does this itself only where particles are consecutive.
 template <class K, int D, class T, int N>
 HMPS_INLINE void prefetch_particles(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view) {
   constexpr std::size_t width = Blocks<K, D>::width;
