@@ -54,6 +54,19 @@ function(hmps_parsed_once target)
   target_precompile_headers(${target} REUSE_FROM hmps_parsed)
 endfunction()
 
+# hmps_unit_tests(<target> <prefix> <source>...): adds the sources to the program <target>, made and registered with
+# ctest at the first call. With HMPS_UNITY_TESTS its sources are compiled together, so that what several of them
+# instantiate is instantiated once; each has a namespace of its own for that.
+function(hmps_unit_tests target prefix)
+  if(TARGET ${target})
+    target_sources(${target} PRIVATE ${ARGN})
+    return()
+  endif()
+  add_executable(${target} ${ARGN})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HMPS_UNITY_TESTS} UNITY_BUILD_BATCH_SIZE 0)
+  gtest_discover_tests(${target} TEST_PREFIX "${prefix}: " DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
+endfunction()
+
 # The executors that this machine can run: hmps_openmp and hmps_onetbb exist where the library is found.
 set(HMPS_EXECUTORS "")
 find_package(OpenMP QUIET COMPONENTS CXX)

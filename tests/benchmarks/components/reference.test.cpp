@@ -7,7 +7,7 @@
 
 #include "../../hmps/force/equations.hpp"
 
-namespace {
+namespace reference_test {
 
 using namespace equations;
 
@@ -41,4 +41,4 @@ void expect_the_equations() {
 TEST(Reference, ComputesTheEquationsInDouble) { expect_the_equations<double>(); }
 TEST(Reference, ComputesTheEquationsInFloat) { expect_the_equations<float>(); }
 
-}  // namespace
+}  // namespace reference_test

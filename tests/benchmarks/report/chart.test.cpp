@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace {
+namespace chart_test {
 
 using namespace report;
 
@@ -63,4 +63,4 @@ TEST(Ring, HasAHole) {
   EXPECT_EQ(pixel(canvas, 20, 35), 0xffffffU);
 }
 
-}  // namespace
+}  // namespace chart_test

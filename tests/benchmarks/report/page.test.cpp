@@ -7,7 +7,7 @@
 
 #include "hmps/core/error.hpp"
 
-namespace {
+namespace page_test {
 
 using namespace report;
 
@@ -38,4 +38,4 @@ TEST(Page, BeginsWithItsOpening) {
             "# New\n\n<!-- begin a -->\n<!-- end a -->\n");
 }
 
-}  // namespace
+}  // namespace page_test

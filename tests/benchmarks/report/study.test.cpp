@@ -11,7 +11,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "common/files.hpp"
 
-namespace {
+namespace study_test {
 
 using namespace report;
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_F(Program, EndsWithTwoWhereItFails) {
   EXPECT_EQ(run({"--out", path("file/out")}, [](Study&) { FAIL() << "there is no folder"; }), 2);
 }
 
-}  // namespace
+}  // namespace study_test

@@ -8,7 +8,7 @@
 
 #include "hmps/core/error.hpp"
 
-namespace {
+namespace table_test {
 
 using namespace report;
 
@@ -43,4 +43,4 @@ TEST(Cell, RefusesWhatIsNoNumber) {
   for (const char* cell : {"", "x", "1.5x", "1 2"}) EXPECT_THROW((void)number(cell), hmps::InputError) << cell;
 }
 
-}  // namespace
+}  // namespace table_test

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace {
+namespace text_test {
 
 using namespace report;
 
@@ -57,4 +57,4 @@ TEST(Text, ListsSentences) {
   EXPECT_EQ(bullets({std::string(118, 'a') + " b"}), "- " + std::string(118, 'a') + "\n  b\n");
 }
 
-}  // namespace
+}  // namespace text_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace front_test {
 
 using tradeoff::pareto_front;
 using tradeoff::Point;
@@ -68,4 +68,4 @@ TEST(Front, RefusesWhatCannotBeOrdered) {
   }
 }
 
-}  // namespace
+}  // namespace front_test

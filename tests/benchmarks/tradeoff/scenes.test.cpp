@@ -10,7 +10,7 @@
 #include "scenes/timoshenko.hpp"
 #include "tradeoff/sweep.hpp"
 
-namespace {
+namespace scenes_test {
 
 using namespace tradeoff;
 using namespace scenes;
@@ -113,4 +113,4 @@ TEST(Contact, RefusesAPenaltyTooStiffForTheCadence) {
   EXPECT_NE(run.failure.find("it must be below 1"), std::string::npos) << run.failure;
 }
 
-}  // namespace
+}  // namespace scenes_test

@@ -9,7 +9,7 @@
 #include "output/summary.hpp"
 #include "tradeoff/scenes.hpp"
 
-namespace {
+namespace swallow_test {
 
 namespace fs = std::filesystem;
 
@@ -71,4 +71,4 @@ TEST_F(Finer, RunOfAnotherKindIsNot) {
   EXPECT_EQ(found.reference->number("spacing"), 1.8e-3);
 }
 
-}  // namespace
+}  // namespace swallow_test

@@ -14,7 +14,7 @@
 #include "tradeoff/rules.hpp"
 #include "tradeoff/table.hpp"
 
-namespace {
+namespace sweep_test {
 
 using namespace tradeoff;
 
@@ -250,4 +250,4 @@ TEST(Meter, CountsTheMemoryThatIsHeld) {
   EXPECT_LT(meter.peak(), 820000U);
 }
 
-}  // namespace
+}  // namespace sweep_test

@@ -12,7 +12,7 @@
 #include "verification/results.hpp"
 #include "verification/support.hpp"
 
-namespace {
+namespace problems_test {
 
 using namespace verification;
 
@@ -154,4 +154,4 @@ TEST(Support, CrossingsMeasureAPeriod) {
   EXPECT_NEAR(crossings.span(), 2 * std::acos(-1.0), 1e-5);
 }
 
-}  // namespace
+}  // namespace problems_test

@@ -12,7 +12,7 @@
 #include "../../../examples/across_machines/page.hpp"
 #include "../../../examples/across_machines/partition.hpp"
 
-namespace {
+namespace parts_test {
 
 using namespace across_machines;
 
@@ -162,4 +162,4 @@ TEST(Page, NamesNoSourceOfOtherRates) {
   EXPECT_EQ(page_of(all, {.force = 21}, 3).find(source), std::string::npos);
 }
 
-}  // namespace
+}  // namespace parts_test

@@ -14,7 +14,7 @@
 
 #include "scene/motion.hpp"
 
-namespace {
+namespace build_scene_test {
 
 using swallowing::make_scene;
 using swallowing::Organ;
@@ -197,4 +197,4 @@ TEST(BuildScene, GivesEveryRegionOfBothModelsParticles) {
   }
 }
 
-}  // namespace
+}  // namespace build_scene_test

@@ -13,7 +13,7 @@
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 
-namespace {
+namespace checkpoint_test {
 
 using hmps::InputError;
 using hmps_test::message_of;
@@ -142,4 +142,4 @@ TEST(Checkpoint, SurvivesAKillAtAnyMoment) {
   }
 }
 
-}  // namespace
+}  // namespace checkpoint_test

@@ -9,7 +9,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "../common/csv_writer.hpp"
 
-namespace {
+namespace files_test {
 
 using hmps::InputError;
 using hmps_test::message_of;
@@ -52,4 +52,4 @@ TEST(Csv, NumbersComeBackToTheLastBit) {
   EXPECT_EQ(table.values, twice);
 }
 
-}  // namespace
+}  // namespace files_test

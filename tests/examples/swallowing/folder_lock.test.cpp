@@ -12,7 +12,7 @@
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 
-namespace {
+namespace folder_lock_test {
 
 using examples::FolderLock;
 using hmps_test::message_of;
@@ -51,4 +51,4 @@ TEST(FolderLock, NeedsAFolder) {
   EXPECT_THROW((void)FolderLock(folder.path() / "none"), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace folder_lock_test

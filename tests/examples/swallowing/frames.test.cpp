@@ -9,7 +9,7 @@
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 
-namespace {
+namespace frames_test {
 
 using examples::Field;
 using hmps_test::message_of;
@@ -119,4 +119,4 @@ TEST(Frames, VtkReadsThemBack) {
   EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
 }
 
-}  // namespace
+}  // namespace frames_test

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace {
+namespace measure_test {
 
 using swallowing::angle_above_horizontal;
 using swallowing::FoldTime;
@@ -56,4 +56,4 @@ TEST(Measure, WithoutSamplesThereIsNothing) {
   EXPECT_TRUE(std::isnan(FoldTime().smallest()));
 }
 
-}  // namespace
+}  // namespace measure_test

@@ -8,7 +8,7 @@
 
 #include "../../reference/temporary_folder.hpp"
 
-namespace {
+namespace mechanisms_test {
 
 using hmps_test::TemporaryFolder;
 using swallowing::Summary;
@@ -51,4 +51,4 @@ TEST(Mechanisms, AreReadFromTheContacts) {
     EXPECT_NE(text.find(line), std::string::npos) << line << '\n' << text;
 }
 
-}  // namespace
+}  // namespace mechanisms_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace {
+namespace numbers_test {
 
 using examples::decimal;
 
@@ -29,4 +29,4 @@ TEST(Numbers, OfOtherNotationsOrWithAnythingElseAreRefused) {
     EXPECT_FALSE(decimal<int>(text)) << '"' << text << '"';
 }
 
-}  // namespace
+}  // namespace numbers_test

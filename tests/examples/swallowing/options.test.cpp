@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-namespace {
+namespace options_test {
 
 using swallowing::Options;
 
@@ -169,4 +169,4 @@ TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
   }
 }
 
-}  // namespace
+}  // namespace options_test

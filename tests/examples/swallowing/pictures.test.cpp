@@ -9,7 +9,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "output/comparison.hpp"
 
-namespace {
+namespace pictures_test {
 
 using hmps_test::TemporaryFolder;
 using swallowing::Role;
@@ -165,4 +165,4 @@ TEST(Pictures, TableAndFoldStandBesideThePaper) {
             1e-3);
 }
 
-}  // namespace
+}  // namespace pictures_test

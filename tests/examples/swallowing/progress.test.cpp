@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace {
+namespace progress_test {
 
 using swallowing::Progress;
 
@@ -62,4 +62,4 @@ TEST(Progress, SaysDurationsAndNumbersAsOneReadsThem) {
   EXPECT_EQ(swallowing::with_prefix(22.4e6), "22.4 M");
 }
 
-}  // namespace
+}  // namespace progress_test

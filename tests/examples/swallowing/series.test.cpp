@@ -8,7 +8,7 @@
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 
-namespace {
+namespace series_test {
 
 using hmps_test::message_of;
 using hmps_test::TemporaryFolder;
@@ -137,4 +137,4 @@ TEST(Series, OtherFilesAreRefused) {
   EXPECT_THROW((void)swallowing::read_series(folder.path() / "other.csv"), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace series_test

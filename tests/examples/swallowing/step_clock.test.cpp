@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace step_clock_test {
 
 using swallowing::StepClock;
 
@@ -31,4 +31,4 @@ TEST(StepClock, CountsFromZeroWhileTheStepStays) {
   EXPECT_EQ(clock.time(), 100000 * 3e-5);
 }
 
-}  // namespace
+}  // namespace step_clock_test

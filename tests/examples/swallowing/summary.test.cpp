@@ -10,7 +10,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "../common/files.hpp"
 
-namespace {
+namespace summary_test {
 
 using hmps_test::TemporaryFolder;
 using swallowing::DetF;
@@ -93,4 +93,4 @@ TEST(Summary, MissingIsNothingAndForeignIsAnError) {
   EXPECT_THROW((void)swallowing::read_summary(folder.path() / "torn.json"), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace summary_test

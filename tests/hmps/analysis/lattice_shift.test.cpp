@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace {
+namespace lattice_shift_test {
 
 using namespace hmps;
 
@@ -30,4 +30,4 @@ TEST(LatticeShift, TheErrorBarHoldsEveryResult) {
                InputError);
 }
 
-}  // namespace
+}  // namespace lattice_shift_test

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace {
+namespace probed_scene_test {
 
 using namespace hmps;
 
@@ -74,4 +74,4 @@ TEST(ProbedScene, NoiseIsCentredAndFillsItsInterval) {
   EXPECT_GT(largest, 0.99);
 }
 
-}  // namespace
+}  // namespace probed_scene_test

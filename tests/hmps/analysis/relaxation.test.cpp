@@ -19,7 +19,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
-namespace {
+namespace relaxation_test {
 
 using namespace hmps;
 
@@ -345,4 +345,4 @@ TEST(Relax, BadInputIsRefused) {
   EXPECT_THROW(call({.spacing = l0, .load = 1}), InputError);
 }
 
-}  // namespace
+}  // namespace relaxation_test

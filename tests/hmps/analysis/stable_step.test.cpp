@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace stable_step_test {
 
 using namespace hmps;
 
@@ -297,4 +297,4 @@ TEST(StableStep, BadInputIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace stable_step_test

@@ -16,7 +16,7 @@
 #include "hmps/terms/viscous.hpp"
 #include "reference/scenes.hpp"
 
-namespace {
+namespace step_causes_test {
 
 using namespace hmps;
 
@@ -123,4 +123,4 @@ TEST(StepCauses, BadInputIsRefusedAndNoLimitHasNoCause) {
           .empty());
 }
 
-}  // namespace
+}  // namespace step_causes_test

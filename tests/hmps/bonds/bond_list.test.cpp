@@ -13,7 +13,7 @@
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace {
+namespace bond_list_test {
 
 using namespace bonds_of_a_scene;
 
@@ -113,4 +113,4 @@ TEST(BondList, OfNoParticlesIsEmpty) {
   EXPECT_EQ(bonds.block_count(), 0u);
 }
 
-}  // namespace
+}  // namespace bond_list_test

@@ -11,7 +11,7 @@
 #include "../../reference/scenes.hpp"
 #include "hmps/core/view.hpp"
 
-namespace {
+namespace cloud_order_test {
 
 template <int D>
 std::vector<hmps::Index> order_of(const scenes::Points<D>& points) {
@@ -76,4 +76,4 @@ TYPED_TEST(CloudOrder, LeavesBothUsualOrdersOfALatticeAsTheyAre) {
 
 TYPED_TEST(CloudOrder, OfNothingIsEmpty) { EXPECT_TRUE(order_of<TypeParam::value>({}).empty()); }
 
-}  // namespace
+}  // namespace cloud_order_test

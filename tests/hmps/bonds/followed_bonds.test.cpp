@@ -10,7 +10,7 @@
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 
-namespace {
+namespace followed_bonds_test {
 
 using Bonds = hmps::LatticeBonds<double, 3>;
 using Followed = hmps::detail::FollowedBonds<Bonds>;
@@ -58,4 +58,4 @@ TEST(FollowedBonds, ThatAreNoMoreAreRefused) {
   EXPECT_THROW((void)Followed(from), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace followed_bonds_test

@@ -18,7 +18,7 @@
 #include "hmps/terms/viscous.hpp"
 #include "reference/scenes.hpp"
 
-namespace {
+namespace lattice_bonds_parts_test {
 
 using Vector = hmps::Vector<double, 3>;
 using Bonds = hmps::LatticeBonds<float, 3>;
@@ -140,4 +140,4 @@ TEST(PartsOfALattice, RefuseAxesAndDisplacementsThatAreNone) {
   EXPECT_NO_THROW(Bonds(hmps::vectors(X), {.spacing = l0, .axes = {2, 0, 1}}));
 }
 
-}  // namespace
+}  // namespace lattice_bonds_parts_test

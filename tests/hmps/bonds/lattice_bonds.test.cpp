@@ -12,7 +12,7 @@
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/terms/term.hpp"
 
-namespace {
+namespace lattice_bonds_test {
 
 using namespace bonds_of_a_scene;
 
@@ -147,4 +147,4 @@ TEST(LatticeBonds, OfNoParticlesAreRefused) {
   EXPECT_TRUE(has(error, "no particles to bond")) << error;
 }
 
-}  // namespace
+}  // namespace lattice_bonds_test

@@ -15,7 +15,7 @@
 #include "bonds_of_a_scene.hpp"
 #include "hmps/bonds/bond_list.hpp"
 
-namespace {
+namespace own_bonds_test {
 
 using namespace bonds_of_a_scene;
 using Pairs = std::vector<std::pair<int, int>>;
@@ -154,4 +154,4 @@ TEST(OwnBonds, OfNoParticlesAreNone) {
   EXPECT_THROW((hmps::BondList<float, 3>(hmps::vectors(lonely), Pairs{}, 1.0)), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace own_bonds_test

@@ -10,7 +10,7 @@
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/core/view.hpp"
 
-namespace {
+namespace plausible_spacing_test {
 
 using bonds_of_a_scene::error_of;
 using bonds_of_a_scene::has;
@@ -53,4 +53,4 @@ TEST(PlausibleSpacing, TakesWhatIsOnlyUnusual) {
   EXPECT_TRUE(has(error_with<3>(scenes::box<3>({15, 15, 15}), 2 * l0), "give a spacing of that size"));
 }
 
-}  // namespace
+}  // namespace plausible_spacing_test

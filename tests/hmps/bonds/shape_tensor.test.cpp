@@ -9,7 +9,7 @@
 
 #include "hmps/bonds/weight.hpp"
 
-namespace {
+namespace shape_tensor_test {
 
 /// The neighbours in a cubic lattice of spacing one for which `inside` holds.
 template <int D, class Inside>
@@ -68,4 +68,4 @@ TEST(ShapeTensor, RefusesNeighbourhoodsThatDoNotSpanSpace) {
   EXPECT_NO_THROW((void)lattice<3>([](const auto& r) { return r.maxCoeff() <= 0; }).inverse(0));
 }
 
-}  // namespace
+}  // namespace shape_tensor_test

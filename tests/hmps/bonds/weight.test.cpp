@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace weight_test {
 
 // Eq. (8).
 TEST(PaperWeight, IsTheRadiusOverTheDistanceLessOne) {
@@ -22,4 +22,4 @@ TEST(PaperWeight, VanishesAtTheRadiusBeyondItAndAtTheParticleItself) {
 
 static_assert(hmps::paper_radius_ratio == 1.75);
 
-}  // namespace
+}  // namespace weight_test

@@ -19,7 +19,7 @@
 #include "hmps/terms/viscous.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
-namespace {
+namespace chatter_test {
 
 using hmps::Index;
 
@@ -109,4 +109,4 @@ TEST(Chatter, IsLessWithSmoothMetaballs) {
   }
 }
 
-}  // namespace
+}  // namespace chatter_test

@@ -15,7 +15,7 @@
 #include "hmps/terms/record.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
-namespace {
+namespace contact_bits_test {
 
 using bodies::Case;
 using hmps::Index;
@@ -99,4 +99,4 @@ TEST(Lists, MissNothingWhileABlockIsPressedUntilItChatters) {
   EXPECT_EQ(kept, pressed(true).first);
 }
 
-}  // namespace
+}  // namespace contact_bits_test

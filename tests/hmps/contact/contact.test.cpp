@@ -15,7 +15,7 @@
 #include "hmps/time/symplectic_euler.hpp"
 #include "plain_contact.hpp"
 
-namespace {
+namespace contact_test {
 
 using hmps_test::message_of;
 
@@ -613,4 +613,4 @@ TEST(Door, RefusesBadInput) {
   EXPECT_THROW(pile.apply(stiff, 2e-5), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace contact_test

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace {
+namespace contact_history_test {
 
 using History = hmps::detail::ContactHistory<3>;
 const hmps::Vector<float, 3> up(0, 0, 1), down(0, 0, -1), aside(1, 0, 0);
@@ -59,4 +59,4 @@ TEST(ContactHistory, KeepsElasticSlipWhileTheSlaveTouches) {
 
 static_assert(std::is_empty_v<hmps::detail::NoSlip>, "friction without a spring takes no memory");
 
-}  // namespace
+}  // namespace contact_history_test

@@ -14,7 +14,7 @@
 #include "hmps/contact/surface_correction.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace {
+namespace incline_test {
 
 using hmps::Index;
 using hmps::MetaballContact;
@@ -254,4 +254,4 @@ TEST(Slide, HasNoDragOnTheSmoothWall) {
   }
 }
 
-}  // namespace
+}  // namespace incline_test

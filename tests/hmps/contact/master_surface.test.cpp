@@ -12,7 +12,7 @@
 
 #include "hmps/contact/normal_density.hpp"
 
-namespace {
+namespace master_surface_test {
 
 template <class S_, int D_, class Ball_>
 struct Case {
@@ -186,4 +186,4 @@ TYPED_TEST(MasterSurfaceTest, HasNoNormalInTheMiddleOfAWall) {
   EXPECT_FALSE((typename TestFixture::Surface{}).normal(this->radius, n)) << "no master at all";
 }
 
-}  // namespace
+}  // namespace master_surface_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace metaball_test {
 
 template <class Ball>
 class MetaballTest : public ::testing::Test {};
@@ -45,4 +45,4 @@ static_assert(hmps::Metaball<hmps::SmoothMetaball>);
 static_assert(!hmps::Metaball<NoRadius>);
 static_assert(!hmps::Metaball<int>);
 
-}  // namespace
+}  // namespace metaball_test

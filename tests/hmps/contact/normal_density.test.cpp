@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace {
+namespace normal_density_test {
 
 using hmps::PaperMetaball;
 using hmps::SmoothMetaball;
@@ -106,4 +106,4 @@ TEST(NormalDensity, RefusesBadSpacing) {
   EXPECT_THROW(static_cast<void>(Z(std::numeric_limits<double>::quiet_NaN())), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace normal_density_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace {
+namespace organ_test {
 
 TEST(ExcludeAttached, NamesSlavesWithinADistanceInMetres) {
   // A strip of slaves at y = 0 that is bonded to particle 5 at (0, 1).
@@ -26,4 +26,4 @@ TEST(ExcludeAttached, RefusesBadInput) {
   EXPECT_THROW((void)hmps::exclude_attached(view, good, bad, 1.), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace organ_test

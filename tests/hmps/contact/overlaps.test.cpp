@@ -9,7 +9,7 @@
 #include "bodies.hpp"
 #include "hmps/contact/contact.hpp"
 
-namespace {
+namespace overlaps_test {
 
 using hmps::Index;
 using Contact = hmps::MetaballContact<double, 3>;
@@ -95,4 +95,4 @@ TEST(Overlaps, RefuseBadInput) {
   EXPECT_THROW((void)contact.overlaps(x), hmps::StateError);
 }
 
-}  // namespace
+}  // namespace overlaps_test

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-namespace {
+namespace penalty_test {
 
 using hmps::PenaltyStiffness;
 using Point = hmps::Vector<double, 3>;
@@ -86,4 +86,4 @@ struct Halfway {
 static_assert(hmps::FrictionLaw<Halfway>);
 static_assert(!hmps::FrictionLaw<Point>);
 
-}  // namespace
+}  // namespace penalty_test

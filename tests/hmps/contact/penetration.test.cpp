@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace penetration_test {
 
 TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
   std::mt19937 random(3);
@@ -44,4 +44,4 @@ TEST(Penetration, IsZeroWhereTheyDoNotTouch) {
   EXPECT_DOUBLE_EQ(hmps::penetration(0.5, -0.2), 0.7);
 }
 
-}  // namespace
+}  // namespace penetration_test

@@ -12,7 +12,7 @@
 #include "hmps/core/math.hpp"
 #include "plain_contact.hpp"
 
-namespace {
+namespace slave_contact_test {
 
 using hmps::Index;
 using Vector = hmps::Vector<double, 3>;
@@ -142,4 +142,4 @@ TEST(SlaveContact, SaysWhereTheWallDoesNotTellWhichWayIsOut) {
   EXPECT_TRUE(beside.contact.inside);
 }
 
-}  // namespace
+}  // namespace slave_contact_test

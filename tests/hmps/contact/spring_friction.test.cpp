@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace {
+namespace spring_friction_test {
 
 using Point = hmps::Vector<double, 3>;
 
@@ -100,4 +100,4 @@ TEST(SpringFriction, TakesEnergyOnAClosedPath) {
   }
 }
 
-}  // namespace
+}  // namespace spring_friction_test

@@ -9,7 +9,7 @@
 #include "bodies.hpp"
 #include "hmps/contact/contact.hpp"
 
-namespace {
+namespace state_checks_test {
 
 using hmps::Index;
 using Contact = hmps::MetaballContact<double, 3>;
@@ -120,4 +120,4 @@ TEST(StateChecks, RefuseAPenaltyThatTheScalarCannotHold) {
   EXPECT_NO_THROW(pile.apply(contact, dt));
 }
 
-}  // namespace
+}  // namespace state_checks_test

@@ -11,7 +11,7 @@
 #include "bodies.hpp"
 #include "hmps/contact/contact.hpp"
 
-namespace {
+namespace sticking_test {
 
 using hmps::Index;
 using Contact = hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::SpringFriction>;
@@ -161,4 +161,4 @@ TEST(Sticking, HasTheSameBitsInAnyOrder) {
   EXPECT_GT(contacts, 100U);
 }
 
-}  // namespace
+}  // namespace sticking_test

@@ -9,7 +9,7 @@
 
 #include "hmps/shapes/implicit.hpp"
 
-namespace {
+namespace surface_correction_test {
 
 using hmps::Index;
 
@@ -124,4 +124,4 @@ TEST(SurfaceCorrection, SaysWhatIsWrong) {
       << "no direction";
 }
 
-}  // namespace
+}  // namespace surface_correction_test

@@ -9,7 +9,7 @@
 #include "bodies.hpp"
 #include "hmps/contact/contact.hpp"
 
-namespace {
+namespace tunnelling_test {
 
 using hmps::Index;
 
@@ -96,4 +96,4 @@ TEST(TunnellingMessage, NamesTimeParticleOrganDepthAndRemedy) {
     EXPECT_NE(result.message.find(part), std::string::npos) << part << " in: " << result.message;
 }
 
-}  // namespace
+}  // namespace tunnelling_test

@@ -11,7 +11,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/view.hpp"
 
-namespace {
+namespace wall_motion_test {
 
 using hmps::Index;
 
@@ -103,4 +103,4 @@ TEST(ParticleMotion, IsThatSinceTheCallBefore) {
   EXPECT_EQ(motion.moved(0)[1], 0);
 }
 
-}  // namespace
+}  // namespace wall_motion_test

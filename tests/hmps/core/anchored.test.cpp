@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace {
+namespace anchored_test {
 
 struct Body : hmps::detail::Anchored {};
 using Anchor = hmps::detail::Anchored::Anchor;
@@ -44,4 +44,4 @@ TEST(Anchored, IsNoMoreWhenDestroyed) {
   EXPECT_EQ(anchor.object(), nullptr);
 }
 
-}  // namespace
+}  // namespace anchored_test

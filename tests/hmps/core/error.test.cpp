@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-namespace {
+namespace error_test {
 
 static_assert(std::is_base_of_v<std::runtime_error, hmps::Error>);
 static_assert(std::is_base_of_v<hmps::Error, hmps::InputError>);
@@ -36,4 +36,4 @@ TEST(Error, RequireThrowsItsMessage) {
   }
 }
 
-}  // namespace
+}  // namespace error_test

@@ -12,7 +12,7 @@
 
 #include "../../reference/backwards.hpp"
 
-namespace {
+namespace executor_test {
 
 using hmps_test::Backwards;
 
@@ -66,4 +66,4 @@ TEST(Reduce, DoesNotDependOnTheExecutor) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(forwards), std::bit_cast<std::uint64_t>(backwards));
 }
 
-}  // namespace
+}  // namespace executor_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace {
+namespace finite_test {
 
 using hmps::detail::is_finite, hmps::detail::is_nan, hmps::detail::all_finite;
 
@@ -44,4 +44,4 @@ TEST(Finite, LooksAtEveryComponent) {
   }
 }
 
-}  // namespace
+}  // namespace finite_test

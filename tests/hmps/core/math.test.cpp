@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace math_test {
 
 using namespace hmps;
 
@@ -88,4 +88,4 @@ TYPED_TEST(MathOf, ScalarHelpers) {
     EXPECT_TRUE(std::isnan(inverse_cube_root(x))) << x;
 }
 
-}  // namespace
+}  // namespace math_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace particle_set_test {
 
 using hmps::Index;
 using hmps::ParticleSet;
@@ -54,4 +54,4 @@ TEST(ParticleSet, RefusesWhatIsNoParticleOrGivenTwice) {
   EXPECT_EQ(text({3, 0}), "");
 }
 
-}  // namespace
+}  // namespace particle_set_test

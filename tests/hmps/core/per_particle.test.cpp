@@ -9,7 +9,7 @@
 
 #include "../../reference/message_of.hpp"
 
-namespace {
+namespace per_particle_test {
 
 using namespace hmps;
 
@@ -59,4 +59,4 @@ TEST(PerParticle, ValuesThatAreNotPositiveAreNamed) {
   }
 }
 
-}  // namespace
+}  // namespace per_particle_test

@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #endif
 
-namespace {
+namespace text_file_test {
 
 using namespace hmps::detail;
 
@@ -84,4 +84,4 @@ TEST(TextFile, NumbersMustBeWhole) {
   EXPECT_EQ(number, 1.25);
 }
 
-}  // namespace
+}  // namespace text_file_test

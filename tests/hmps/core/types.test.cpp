@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace {
+namespace types_test {
 
 template <class T>
 class Types : public testing::Test {};
@@ -33,4 +33,4 @@ TYPED_TEST(Types, MatricesAreColumnMajor) {
 
 static_assert(std::is_unsigned_v<hmps::Index> && sizeof(hmps::Index) == 4);
 
-}  // namespace
+}  // namespace types_test

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace view_test {
 
 template <class T>
 struct Particle {
@@ -194,4 +194,4 @@ TEST(Views, ErrorsNameTheParticleAndTheValue) {
   }
 }
 
-}  // namespace
+}  // namespace view_test

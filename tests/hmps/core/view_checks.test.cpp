@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace view_checks_test {
 
 using hmps::VectorView;
 
@@ -55,4 +55,4 @@ TEST(ViewChecks, RefuseTwoViewsOfOneArray) {
   EXPECT_THROW(hmps::require_apart(x, "positions", VectorView<const double, 3>(x), "velocities"), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace view_checks_test

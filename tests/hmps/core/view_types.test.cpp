@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace view_types_test {
 
 using hmps::VectorView;
 static_assert(std::is_convertible_v<VectorView<double, 3>, VectorView<const double, 3>>);
@@ -31,4 +31,4 @@ TEST(ViewTypes, FindComponentsByBaseAndStride) {
   EXPECT_EQ(memory[13], -1);
 }
 
-}  // namespace
+}  // namespace view_types_test

@@ -16,7 +16,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
-namespace {
+namespace energy_test {
 
 using namespace hmps;
 
@@ -159,4 +159,4 @@ TEST(Energy, FreeVibrationKeepsItToTheFirstOrderOfTheStep) {
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.1);
 }
 
-}  // namespace
+}  // namespace energy_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace {
+namespace jacobian_test {
 
 using namespace hmps;
 
@@ -62,4 +62,4 @@ TEST(Jacobian, StatisticsOfNobodyAreRefused) {
   EXPECT_THROW((void)jacobian_statistics(matrices(empty)), InputError);
 }
 
-}  // namespace
+}  // namespace jacobian_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace momentum_test {
 
 using namespace hmps;
 
@@ -55,4 +55,4 @@ TEST(Momentum, BadInputIsRefused) {
   EXPECT_THROW((void)linear_momentum(vectors(x), 1000.0, -1.0), InputError);
 }
 
-}  // namespace
+}  // namespace momentum_test

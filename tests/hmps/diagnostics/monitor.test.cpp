@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace monitor_test {
 
 using namespace hmps;
 
@@ -113,4 +113,4 @@ TEST(Monitor, ViewsOfDifferentSizesAreRefused) {
   EXPECT_THROW(check_state(vectors(x), vectors(x), matrices(F), {}), InputError);
 }
 
-}  // namespace
+}  // namespace monitor_test

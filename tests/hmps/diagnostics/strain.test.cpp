@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace strain_test {
 
 using namespace hmps;
 using Tensor = Matrix<double, 3>;
@@ -69,4 +69,4 @@ TEST(Strain, OfAllParticlesIsThatOfEach) {
   EXPECT_THROW(green_lagrange_strains(matrices(F), matrices(strain)), InputError);
 }
 
-}  // namespace
+}  // namespace strain_test

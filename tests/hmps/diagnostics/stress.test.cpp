@@ -10,7 +10,7 @@
 #include "../../reference/message_of.hpp"
 #include "hmps/laws/neo_hookean.hpp"
 
-namespace {
+namespace stress_test {
 
 using namespace hmps;
 using Tensor = Matrix<double, 3>;
@@ -110,4 +110,4 @@ TEST(Stress, ABrokenParticleIsNamed) {
   EXPECT_THROW(cauchy_stresses(matrices(F), law, matrices(F)), InputError);
 }
 
-}  // namespace
+}  // namespace stress_test

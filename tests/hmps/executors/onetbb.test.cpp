@@ -5,7 +5,7 @@
 
 #include "same_bits.hpp"
 
-namespace {
+namespace onetbb_test {
 
 static_assert(hmps::Executor<hmps::OneTBB>);
 
@@ -26,4 +26,4 @@ TEST(OneTBB, GivesTheSameBitsAsOneThread) {
   check(same_bits::Probe<hmps::BondList<float, 3>>());
 }
 
-}  // namespace
+}  // namespace onetbb_test

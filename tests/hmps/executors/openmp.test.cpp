@@ -5,7 +5,7 @@
 
 #include "same_bits.hpp"
 
-namespace {
+namespace openmp_test {
 
 static_assert(hmps::Executor<hmps::OpenMP>);
 
@@ -44,4 +44,4 @@ TEST(OpenMP, GivesTheSameBitsAsOneThread) {
   check(same_bits::Probe<hmps::BondList<double, 3>>());
 }
 
-}  // namespace
+}  // namespace openmp_test

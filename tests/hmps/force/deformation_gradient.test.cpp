@@ -8,7 +8,7 @@
 #include "hmps/force/internal_force.hpp"
 #include "hmps/terms/record.hpp"
 
-namespace {
+namespace deformation_gradient_test {
 
 using namespace equations;
 using bonds_of_a_scene::error_of;
@@ -79,4 +79,4 @@ TEST(DeformationGradientErrors, NameTheView) {
   EXPECT_TRUE(has(text, "positions holds 3 particles but 20 are needed")) << text;
 }
 
-}  // namespace
+}  // namespace deformation_gradient_test

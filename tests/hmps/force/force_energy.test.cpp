@@ -16,7 +16,7 @@
 #include "hmps/terms/record.hpp"
 #include "hmps/terms/viscous.hpp"
 
-namespace {
+namespace force_energy_test {
 
 using namespace equations;
 using Bonds = hmps::BondList<double, 2>;
@@ -109,4 +109,4 @@ TEST(ForceEnergy, IsThatOfTheDiagnosticsTermByTerm) {
   EXPECT_THROW((void)force.energy(x.part(0, 3), 1.0), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace force_energy_test

@@ -13,7 +13,7 @@
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/viscous.hpp"
 
-namespace {
+namespace force_function_test {
 
 using Function = hmps::ForceFunction<double, 2>;
 static_assert(hmps::ProbedForce<Function, double, 2>);
@@ -37,4 +37,4 @@ TEST(ForceFunction, HoldsAnyForce) {
   EXPECT_EQ(found, expected);
 }
 
-}  // namespace
+}  // namespace force_function_test

@@ -15,7 +15,7 @@
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/viscous.hpp"
 
-namespace {
+namespace force_sweeps_test {
 
 using namespace equations;
 using Lattice = hmps::LatticeBonds<double, 3>;
@@ -156,4 +156,4 @@ TEST(ForceSweeps, AddToWhatIsThere) {
                hmps::InputError);
 }
 
-}  // namespace
+}  // namespace force_sweeps_test

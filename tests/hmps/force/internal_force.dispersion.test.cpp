@@ -15,7 +15,7 @@
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
 
-namespace {
+namespace internal_force_dispersion_test {
 
 TEST(Dispersion, OfTheLatticeIsExact) {
   constexpr double l0 = scenes::Scene<3>::spacing, lambda = 2e6, mu = 6.7e3, modulus = 2e4;
@@ -50,4 +50,4 @@ TEST(Dispersion, OfTheLatticeIsExact) {
   }
 }
 
-}  // namespace
+}  // namespace internal_force_dispersion_test

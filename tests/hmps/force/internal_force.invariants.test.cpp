@@ -12,7 +12,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/record.hpp"
 
-namespace {
+namespace internal_force_invariants_test {
 
 using namespace equations;
 
@@ -199,4 +199,4 @@ TYPED_TEST(Invariants, TravelDoesNotCostPrecision) {
             10 * state * 8e4 / scene.spacing);
 }
 
-}  // namespace
+}  // namespace internal_force_invariants_test

@@ -8,7 +8,7 @@
 #include "../executors/same_bits.hpp"
 #include "equations.hpp"
 
-namespace {
+namespace internal_force_order_test {
 
 using hmps_test::Backwards;
 
@@ -74,4 +74,4 @@ TYPED_TEST(OrderOfParticles, ChangesForcesByRoundingAlone) {
   }
 }
 
-}  // namespace
+}  // namespace internal_force_order_test

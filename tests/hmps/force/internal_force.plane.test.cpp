@@ -5,8 +5,8 @@
 
 namespace fused_force {
 
-using Models = testing::Types<hmps::LatticeBonds<float, 2>, hmps::LatticeBonds<double, 2>, hmps::BondList<float, 2>,
-                              hmps::BondList<double, 2>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(InThePlane, FusedForce, Models);
+using ModelsInThePlane = testing::Types<hmps::LatticeBonds<float, 2>, hmps::LatticeBonds<double, 2>,
+                                        hmps::BondList<float, 2>, hmps::BondList<double, 2>>;
+INSTANTIATE_TYPED_TEST_SUITE_P(InThePlane, FusedForce, ModelsInThePlane);
 
 }  // namespace fused_force

@@ -5,8 +5,8 @@
 
 namespace fused_force {
 
-using Models = testing::Types<hmps::LatticeBonds<float, 3>, hmps::LatticeBonds<double, 3>, hmps::BondList<float, 3>,
-                              hmps::BondList<double, 3>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(InSpace, FusedForce, Models);
+using ModelsInSpace = testing::Types<hmps::LatticeBonds<float, 3>, hmps::LatticeBonds<double, 3>,
+                                     hmps::BondList<float, 3>, hmps::BondList<double, 3>>;
+INSTANTIATE_TYPED_TEST_SUITE_P(InSpace, FusedForce, ModelsInSpace);
 
 }  // namespace fused_force

@@ -20,7 +20,7 @@
 #include "hmps/terms/viscous.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
-namespace {
+namespace internal_force_use_test {
 
 using namespace equations;
 using bonds_of_a_scene::error_of;
@@ -358,4 +358,4 @@ concept TakesTemporaryBonds = requires(B&& bonds) {
 };
 static_assert(!TakesTemporaryBonds<Lattice>);
 
-}  // namespace
+}  // namespace internal_force_use_test

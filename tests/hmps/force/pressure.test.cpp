@@ -17,7 +17,7 @@
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/terms/elastic.hpp"
 
-namespace {
+namespace pressure_test {
 
 using Vector = hmps::Vector<double, 3>;
 using Tensor = hmps::Matrix<double, 3>;
@@ -114,4 +114,4 @@ TEST(Pressure, RefusesBadInput) {
   EXPECT_THROW(top.add(F, f, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace pressure_test

@@ -12,7 +12,7 @@
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/core/executor.hpp"
 
-namespace {
+namespace restricted_blocks_test {
 
 using Bonds = hmps::LatticeBonds<double, 2>;
 
@@ -63,4 +63,4 @@ TEST(RestrictedBlocks, GrowByTheNeighboursThatEachSweepReads) {
   EXPECT_GT(blocks.bytes(), 0u);
 }
 
-}  // namespace
+}  // namespace restricted_blocks_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace blocks_test {
 
 template <class K>
 class BlocksOf : public testing::Test {};
@@ -130,4 +130,4 @@ TYPED_TEST(BlocksOf, KeepTheShapeTensor) {
   EXPECT_NEAR(blocks.inverse_trace_lanes(0).lane[0], K(1) / K(1.5625), 4 * std::numeric_limits<K>::epsilon());
 }
 
-}  // namespace
+}  // namespace blocks_test

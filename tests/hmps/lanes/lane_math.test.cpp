@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace lane_math_test {
 
 template <class T>
 class LaneMath : public testing::Test {};
@@ -69,4 +69,4 @@ TYPED_TEST(LaneMath, InverseCubeRootOfWhatIsNotPositiveIsNotANumber) {
     EXPECT_TRUE(std::isnan(inverse_cube_root(hmps::Lanes<T>(x)).lane[0])) << x;
 }
 
-}  // namespace
+}  // namespace lane_math_test

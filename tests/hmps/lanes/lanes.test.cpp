@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace lanes_test {
 
 template <class T>
 class LanesOf : public testing::Test {
@@ -139,4 +139,4 @@ TYPED_TEST(LanesOf, WorkInsideEigenMatrices) {
   }
 }
 
-}  // namespace
+}  // namespace lanes_test

@@ -12,7 +12,7 @@
 #include "../../reference/scenes.hpp"
 #include "hmps/core/view.hpp"
 
-namespace {
+namespace places_test {
 
 template <class K>
 class Places : public testing::Test {};
@@ -63,4 +63,4 @@ TYPED_TEST(Places, GiveR0ToTheRoundingOfTheKernelsAndOfOppositeSignFromBothEnds)
   }
 }
 
-}  // namespace
+}  // namespace places_test

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <type_traits>
 
-namespace {
+namespace slots_test {
 
 template <class K>
 class Slots : public testing::Test {};
@@ -68,4 +68,4 @@ TYPED_TEST(Slots, NumbersThatNoForceNeedsTakeNoMemory) {
   EXPECT_EQ((hmps::detail::SlotArrays<TypeParam, 0>(40).bytes()), 0u);
 }
 
-}  // namespace
+}  // namespace slots_test

@@ -11,7 +11,7 @@
 #include "hmps/laws/saint_venant_kirchhoff.hpp"
 #include "law_checks.hpp"
 
-namespace {
+namespace continued_test {
 
 using namespace hmps;
 
@@ -100,4 +100,4 @@ TEST(Continued, BoundsOutsideZeroToOneAreRefused) {
   EXPECT_EQ((Continued{NeoHookean<double>{1000, 3000}}.bulk_modulus()), 3000);
 }
 
-}  // namespace
+}  // namespace continued_test

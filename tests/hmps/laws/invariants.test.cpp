@@ -5,7 +5,7 @@
 
 #include "law_checks.hpp"
 
-namespace {
+namespace invariants_test {
 
 using namespace hmps;
 
@@ -53,4 +53,4 @@ TYPED_TEST(InvariantsOf, CombineIsSymmetric) {
   }
 }
 
-}  // namespace
+}  // namespace invariants_test

@@ -5,7 +5,7 @@
 
 #include "law_checks.hpp"
 
-namespace {
+namespace law_test {
 
 using namespace hmps;
 
@@ -87,4 +87,4 @@ TEST(Law, SoundSpeedOfUniaxialStrain) {
   EXPECT_THROW((void)sound_speed(UsersLaw{3000, 3000}, -1.0f), InputError);
 }
 
-}  // namespace
+}  // namespace law_test

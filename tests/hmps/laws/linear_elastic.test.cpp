@@ -5,7 +5,7 @@
 
 #include "law_checks.hpp"
 
-namespace {
+namespace linear_elastic_test {
 
 using namespace hmps;
 
@@ -51,4 +51,4 @@ TEST(LinearElastic, ModuliThatAreNotPositiveAreRefused) {
   EXPECT_THROW((LinearElastic<double>{1000, -1}.validate()), InputError);
 }
 
-}  // namespace
+}  // namespace linear_elastic_test

@@ -12,7 +12,7 @@
 #include "hmps/laws/neo_hookean.hpp"
 #include "hmps/laws/saint_venant_kirchhoff.hpp"
 
-namespace {
+namespace mooney_rivlin_test {
 
 using namespace hmps;
 using law_checks::epsilon;
@@ -186,4 +186,4 @@ TEST(MooneyRivlin, ModuliAreThoseThatItIsMadeFrom) {
   EXPECT_DOUBLE_EQ(MooneyRivlin<>::from_moduli(K, G, 3.0).c1, 3 * MooneyRivlin<>::from_moduli(K, G, 3.0).c2);
 }
 
-}  // namespace
+}  // namespace mooney_rivlin_test

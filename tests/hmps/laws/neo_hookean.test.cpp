@@ -6,7 +6,7 @@
 #include "hmps/laws/mooney_rivlin.hpp"
 #include "law_checks.hpp"
 
-namespace {
+namespace neo_hookean_test {
 
 using namespace hmps;
 
@@ -47,4 +47,4 @@ TEST(NeoHookean, ModuliThatAreNotPositiveAreRefused) {
   EXPECT_THROW((NeoHookean<double>::from_young(-1e4, 0.3).validate()), InputError);
 }
 
-}  // namespace
+}  // namespace neo_hookean_test

@@ -5,7 +5,7 @@
 
 #include "law_checks.hpp"
 
-namespace {
+namespace saint_venant_kirchhoff_test {
 
 using namespace hmps;
 
@@ -43,4 +43,4 @@ TEST(SaintVenantKirchhoff, ModuliThatAreNotPositiveAreRefused) {
   EXPECT_THROW((SaintVenantKirchhoff<double>::from_young(1e4, 0.5).validate()), InputError);
 }
 
-}  // namespace
+}  // namespace saint_venant_kirchhoff_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace control_region_test {
 
 using hmps::ControlRegion;
 using hmps::Index;
@@ -165,4 +165,4 @@ TYPED_TEST(ControlRegionTest, NamesWhatIsWrong) {
   EXPECT_THROW((ControlRegion<S, D>({3}, reference, motion)), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace control_region_test

@@ -10,7 +10,7 @@
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 
-namespace {
+namespace csv_test {
 
 using hmps_test::message_of;
 
@@ -85,4 +85,4 @@ TEST(Csv, MakesKeyframesInMetres) {
   expect_contains(message_of([&] { (void)hmps::track(hmps::parse_csv("t,x\n", "hyoid.csv"), "x"); }), "no row");
 }
 
-}  // namespace
+}  // namespace csv_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace hold_test {
 
 using Vector = hmps::Vector<float, 3>;
 const hmps::ParticleSet last(3, std::vector<hmps::Index>{2});
@@ -45,4 +45,4 @@ TEST(Hold, RefusesBadInput) {
   EXPECT_THROW(hmps::hold_along(hmps::vectors(few), last, Eigen::Vector3d(0, 0, 1)), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace hold_test

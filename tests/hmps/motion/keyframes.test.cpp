@@ -10,7 +10,7 @@
 
 #include "../../reference/message_of.hpp"
 
-namespace {
+namespace keyframes_test {
 
 using hmps_test::message_of;
 
@@ -101,4 +101,4 @@ TEST(Keyframes, RefusesDisorderAndNamesTheKey) {
   EXPECT_NE(message_of([&] { Keyframes<2>{{0.0, {0.0, nan}}}; }).find("component 1 of keyframe 0"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace keyframes_test

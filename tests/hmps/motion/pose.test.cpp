@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace {
+namespace pose_test {
 
 using hmps::Matrix;
 using hmps::Pose;
@@ -117,4 +117,4 @@ TEST(Velocity, IsTheRateOfThePosition) {
   EXPECT_NEAR(v[1], 1 + 2 * std::cos(0.5), 1e-15);
 }
 
-}  // namespace
+}  // namespace pose_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace rigid_motion_test {
 
 using hmps::Keyframes;
 using hmps::Track;
@@ -63,4 +63,4 @@ TEST(RigidMotion, CarriedRegionsMoveWithinTheirCarrier) {
   EXPECT_LE((soft(1)(V(1, 0, 0)) - V(0, 2, 0)).norm(), 1e-15);
 }
 
-}  // namespace
+}  // namespace rigid_motion_test

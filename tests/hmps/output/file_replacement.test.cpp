@@ -6,7 +6,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "hmps/core/text_file.hpp"
 
-namespace {
+namespace file_replacement_test {
 
 using namespace hmps;
 
@@ -51,4 +51,4 @@ TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-}  // namespace
+}  // namespace file_replacement_test

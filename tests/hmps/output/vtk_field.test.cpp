@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace {
+namespace vtk_field_test {
 
 using namespace hmps;
 
@@ -66,4 +66,4 @@ TEST(VtkField, HoldsVectorsAndTensorsInSpaceRowByRow) {
   EXPECT_EQ(vtk_field("s", matrices(flat)).size(), 1u);
 }
 
-}  // namespace
+}  // namespace vtk_field_test

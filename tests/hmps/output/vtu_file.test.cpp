@@ -9,7 +9,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "hmps/core/text_file.hpp"
 
-namespace {
+namespace vtu_file_test {
 
 using namespace hmps;
 
@@ -100,4 +100,4 @@ TEST(VtuFile, VtkReadsItBack) {
   EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
 }
 
-}  // namespace
+}  // namespace vtu_file_test

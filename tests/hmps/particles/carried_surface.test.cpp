@@ -12,7 +12,7 @@
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/surfaces.hpp"
 
-namespace {
+namespace carried_surface_test {
 
 using namespace hmps;
 using V = Vector<double, 3>;
@@ -160,4 +160,4 @@ TEST(CarriedSurface, RefusesToWriteWhatItReads) {
   EXPECT_EQ(x, ball.reference);
 }
 
-}  // namespace
+}  // namespace carried_surface_test

@@ -18,7 +18,7 @@
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/shapes/combine.hpp"
 
-namespace {
+namespace fitted_test {
 
 using hmps_test::message_of;
 
@@ -260,4 +260,4 @@ TEST(FitParticles, RefusesWhatCannotBeFitted) {
   EXPECT_TRUE(starts(text, "hmps: the body is about 0.8 m thick at (")) << text;
 }
 
-}  // namespace
+}  // namespace fitted_test

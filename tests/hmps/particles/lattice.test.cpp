@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace {
+namespace lattice_test {
 
 using hmps::Box;
 using hmps::Vector;
@@ -178,4 +178,4 @@ TYPED_TEST(Lattice, RefusesWhatCannotBeFilled) {
   }
 }
 
-}  // namespace
+}  // namespace lattice_test

@@ -15,7 +15,7 @@
 #include "../../reference/message_of.hpp"
 #include "../shapes/surfaces.hpp"
 
-namespace {
+namespace open_surface_lattice_test {
 
 using hmps::Vector;
 using namespace hmps_test;
@@ -117,4 +117,4 @@ TYPED_TEST(OpenSurfaceLattice, SaysWhatItCannotFill) {
   EXPECT_NE(message(box, -1).find("the lattice spacing is -1"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace open_surface_lattice_test

@@ -10,7 +10,7 @@
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/surfaces.hpp"
 
-namespace {
+namespace patch_pressure_test {
 
 using namespace hmps;
 using V = Vector<double, 3>;
@@ -117,4 +117,4 @@ TEST(PatchPressure, RefusesWhatDoesNotFit) {
                InputError);
 }
 
-}  // namespace
+}  // namespace patch_pressure_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace support_test {
 
 using hmps::Index;
 using hmps::Vector;
@@ -197,4 +197,4 @@ TYPED_TEST(Support, RefusesSettingsThatMakeNoSense) {
   EXPECT_THROW((void)hmps::find_weak(hmps::vectors(points), {.spacing = F::l0}), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace support_test

@@ -13,7 +13,7 @@
 #include "../../reference/backwards.hpp"
 #include "../shapes/surfaces.hpp"
 
-namespace {
+namespace surface_lattice_test {
 
 using hmps::Vector;
 using namespace hmps_test;
@@ -120,4 +120,4 @@ TYPED_TEST(SurfaceLattice, RefusesOpenSurfacesAndSpacingsThatMakeNoSense) {
   EXPECT_NE(message(S(1e-4)).find("read with a scale of 1e-3"), std::string::npos) << message(S(1e-4));
 }
 
-}  // namespace
+}  // namespace surface_lattice_test

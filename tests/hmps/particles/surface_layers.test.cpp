@@ -15,7 +15,7 @@
 #include "hmps/particles/lattice.hpp"
 #include "hmps/shapes/implicit.hpp"
 
-namespace {
+namespace surface_layers_test {
 
 using hmps_test::Backwards;
 
@@ -139,4 +139,4 @@ TEST(SurfaceLayers, RefusesSpacingsThatMakeNoSense) {
   EXPECT_TRUE(hmps::surface_layers(hmps::vectors(none), 1.0).outermost.empty());
 }
 
-}  // namespace
+}  // namespace surface_layers_test

@@ -8,7 +8,7 @@
 #include "hmps/particles/lattice.hpp"
 #include "hmps/shapes/combine.hpp"
 
-namespace {
+namespace thicken_test {
 
 using hmps::Box;
 using hmps::Vector;
@@ -73,4 +73,4 @@ TYPED_TEST(Thicken, RefusesCloudsThatAreNoLattice) {
   EXPECT_NO_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1}));
 }
 
-}  // namespace
+}  // namespace thicken_test

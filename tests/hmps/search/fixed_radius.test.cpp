@@ -13,7 +13,7 @@
 #include "../../reference/backwards.hpp"
 #include "../../reference/scenes.hpp"
 
-namespace {
+namespace fixed_radius_test {
 
 using hmps_test::Backwards;
 
@@ -165,4 +165,4 @@ TEST(FixedRadiusErrors, NameTheParticles) {
   EXPECT_TRUE(has(search(0.3), "component 2 of the position of particle 77 is nan")) << search(0.3);
 }
 
-}  // namespace
+}  // namespace fixed_radius_test

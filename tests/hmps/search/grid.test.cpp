@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace grid_test {
 
 template <class S_, int D_>
 struct Case {
@@ -103,4 +103,4 @@ TYPED_TEST(GridTest, EndsForPointsThatAreFarApart) {
   EXPECT_THROW(this->build(S(1)), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace grid_test

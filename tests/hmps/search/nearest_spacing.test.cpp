@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nearest_spacing_test {
 
 using V = hmps::Vector<double, 3>;
 
@@ -36,4 +36,4 @@ TEST(NearestSpacing, IsNamedWhereAnotherWasGiven) {
   EXPECT_NE(hint.find("is the spacing 1 m?"), std::string::npos) << hint;
 }
 
-}  // namespace
+}  // namespace nearest_spacing_test

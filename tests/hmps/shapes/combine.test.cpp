@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace combine_test {
 
 using hmps::Matrix;
 using hmps::Vector;
@@ -137,4 +137,4 @@ TYPED_TEST(Combine, MovesAndTurnsAndMirrors) {
   });
 }
 
-}  // namespace
+}  // namespace combine_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace implicit_test {
 
 using hmps::Vector;
 
@@ -153,4 +153,4 @@ TEST(Torus, MeasuresDistance) {
   EXPECT_NEAR(torus(Vector<double, 3>(5, 0, 4)), 4.5, 1e-15);
 }
 
-}  // namespace
+}  // namespace implicit_test

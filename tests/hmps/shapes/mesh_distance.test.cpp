@@ -15,7 +15,7 @@
 #include "hmps/shapes/combine.hpp"
 #include "surfaces.hpp"
 
-namespace {
+namespace mesh_distance_test {
 
 using hmps::Vector;
 using namespace hmps_test;
@@ -65,4 +65,4 @@ TYPED_TEST(MeshDistance, FillsAndRaisesAsShapesDo) {
   EXPECT_GT(half(V(0, 0, S(0.005))), 0);
 }
 
-}  // namespace
+}  // namespace mesh_distance_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace obj_file_test {
 
 using Triangle = std::array<hmps::Index, 3>;
 
@@ -24,4 +24,4 @@ TEST(ObjFile, NegativeNumbersCountOnlyWhatStandsBefore) {
   EXPECT_THROW(hmps::detail::ObjParser<double>(mesh, 1)("f -1 -2 -3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace obj_file_test

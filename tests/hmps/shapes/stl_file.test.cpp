@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-namespace {
+namespace stl_file_test {
 
 using namespace hmps::detail;
 
@@ -39,4 +39,4 @@ TEST(StlFile, CountsTrianglesOfBinaryFiles) {
   EXPECT_THROW((void)count_binary_stl(binary(0xffffffffu, 2), "a.stl"), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace stl_file_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace {
+namespace surface_edges_test {
 
 using namespace hmps::detail;
 using Dropped = std::vector<std::size_t>;
@@ -59,4 +59,4 @@ TEST(SurfaceEdges, PartsOfBothSidesAreFoundWhole) {
   EXPECT_EQ(double_sided(mesh, 8), (Dropped{4, 5, 6, 7, 8, 9, 10, 11}));
 }
 
-}  // namespace
+}  // namespace surface_edges_test

@@ -13,7 +13,7 @@
 #include "../../reference/message_of.hpp"
 #include "surfaces.hpp"
 
-namespace {
+namespace surface_file_test {
 
 using hmps::Vector;
 using namespace hmps_test;
@@ -240,4 +240,4 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   EXPECT_THROW((void)hmps::read_stl<S>(std::filesystem::temp_directory_path().string()), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace surface_file_test

@@ -11,7 +11,7 @@
 #include "../../reference/message_of.hpp"
 #include "surfaces.hpp"
 
-namespace {
+namespace surface_mesh_test {
 
 using hmps::Vector;
 using namespace hmps_test;
@@ -190,4 +190,4 @@ TYPED_TEST(SurfaceMesh, TellsInsideFromOutside) {
   EXPECT_FALSE(hmps::inside(torus, V(0, 0, 0)));
 }
 
-}  // namespace
+}  // namespace surface_mesh_test

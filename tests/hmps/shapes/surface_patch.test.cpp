@@ -7,7 +7,7 @@
 
 #include "hmps/shapes/surfaces.hpp"
 
-namespace {
+namespace surface_patch_test {
 
 using namespace hmps;
 using V = Vector<double, 3>;
@@ -63,4 +63,4 @@ TEST(SurfacePatch, RefusesLengthsThatCannotBe) {
   for (const double longest : {0.0, -1.0, 1e-4}) EXPECT_THROW((void)refine(brick(), longest), InputError) << longest;
 }
 
-}  // namespace
+}  // namespace surface_patch_test

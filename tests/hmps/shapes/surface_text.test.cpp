@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace {
+namespace surface_text_test {
 
 using namespace hmps::detail;
 
@@ -32,4 +32,4 @@ TEST(SurfaceText, TakesPointsOfFiniteNumbers) {
   EXPECT_THROW((void)take_point<double>(line, 1, {source, 1}), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace surface_text_test

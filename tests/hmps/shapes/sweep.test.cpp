@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace sweep_test {
 
 using hmps::Vector;
 
@@ -114,4 +114,4 @@ TYPED_TEST(Sweep, RefusesRowsThatMakeNoShape) {
   EXPECT_THROW(hmps::Plate<S>({row, {V(0, 0, 1), S(1), S(1), S(0)}}, V(0, 0, 0)), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace sweep_test

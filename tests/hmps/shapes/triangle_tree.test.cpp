@@ -11,7 +11,7 @@
 
 #include "surfaces.hpp"
 
-namespace {
+namespace triangle_tree_test {
 
 using V = hmps::Vector<double, 3>;
 using namespace hmps_test;
@@ -123,4 +123,4 @@ TEST(TriangleTree, RefusesWhatIsNoSurface) {
   EXPECT_THROW((void)hmps::TriangleTree(hmps::SurfaceMesh<double>{}), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace triangle_tree_test

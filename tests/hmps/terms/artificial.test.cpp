@@ -9,7 +9,7 @@
 #include "../force/equations.hpp"
 #include "hmps/force/internal_force.hpp"
 
-namespace {
+namespace artificial_test {
 
 using namespace equations;
 using bonds_of_a_scene::error_of;
@@ -65,4 +65,4 @@ TEST(Artificial, RefusesAModulusThatIsNegativeOrNotFinite) {
   }
 }
 
-}  // namespace
+}  // namespace artificial_test

@@ -10,7 +10,7 @@
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/linear_elastic.hpp"
 
-namespace {
+namespace elastic_test {
 
 using namespace equations;
 using bonds_of_a_scene::error_of;
@@ -103,4 +103,4 @@ TEST(ElasticErrors, NameTheModulus) {
   EXPECT_TRUE(has(text, "D1") && has(text, "0 Pa")) << text;
 }
 
-}  // namespace
+}  // namespace elastic_test

@@ -13,7 +13,7 @@
 #include "hmps/force/internal_force.hpp"
 #include "hmps/terms/artificial.hpp"
 
-namespace {
+namespace gravity_test {
 
 using Vector = hmps::Vector<double, 2>;
 using Bonds = hmps::LatticeBonds<double, 2>;
@@ -65,4 +65,4 @@ TEST(Gravity, RefusesBadInput) {
   EXPECT_THROW(force.restrict_to(hmps::ParticleSet(bonds.size() + 1, all)), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace gravity_test

@@ -16,7 +16,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
-namespace {
+namespace mean_dilatation_test {
 
 using namespace equations;
 
@@ -191,4 +191,4 @@ TEST(SplitBulkModulus, NamesWhatIsWrong) {
   EXPECT_EQ(hmps::split_bulk_modulus(1.0, 1.0).mean, 0);
 }
 
-}  // namespace
+}  // namespace mean_dilatation_test

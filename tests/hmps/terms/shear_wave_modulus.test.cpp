@@ -16,7 +16,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "sheets.hpp"
 
-namespace {
+namespace shear_wave_modulus_test {
 
 using namespace sheets;
 
@@ -106,4 +106,4 @@ TEST(ShearWaveModulus, LeavesNoSpuriousModeAndNoSmallerStep) {
     }
 }
 
-}  // namespace
+}  // namespace shear_wave_modulus_test

@@ -11,7 +11,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "sheets.hpp"
 
-namespace {
+namespace sheet_stabiliser_test {
 
 using namespace sheets;
 
@@ -115,4 +115,4 @@ TEST(SheetStabiliser, NamesWhatIsWrong) {
   EXPECT_THROW((void)hmps::sheet_stabiliser(3, 10.0, 0.0), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace sheet_stabiliser_test

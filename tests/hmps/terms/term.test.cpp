@@ -17,7 +17,7 @@
 #include "hmps/terms/record.hpp"
 #include "hmps/terms/viscous.hpp"
 
-namespace {
+namespace term_test {
 
 using bonds_of_a_scene::error_of;
 using bonds_of_a_scene::has;
@@ -111,4 +111,4 @@ TYPED_TEST(Parameters, OfAnotherSizeOrOfAnUnknownBodyAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace term_test

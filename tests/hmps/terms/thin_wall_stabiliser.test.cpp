@@ -21,7 +21,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/sheet_stabiliser.hpp"
 
-namespace {
+namespace thin_wall_stabiliser_test {
 
 using Vector = hmps::Vector<double, 3>;
 
@@ -117,4 +117,4 @@ TEST(ThinWallStabiliser, BendsAPlateOfTwoLayers) {
   EXPECT_NEAR(1e3 * (w * aa - aw * a) / (n * aa - a * a), 1.90, 0.06 * 1.90);
 }
 
-}  // namespace
+}  // namespace thin_wall_stabiliser_test

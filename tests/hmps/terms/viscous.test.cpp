@@ -9,7 +9,7 @@
 #include "../force/equations.hpp"
 #include "hmps/force/internal_force.hpp"
 
-namespace {
+namespace viscous_test {
 
 using namespace equations;
 using bonds_of_a_scene::error_of;
@@ -80,4 +80,4 @@ TEST(Viscous, RefusesImpossibleFluids) {
                hmps::InputError);
 }
 
-}  // namespace
+}  // namespace viscous_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace {
+namespace symplectic_euler_test {
 
 using namespace hmps;
 
@@ -153,4 +153,4 @@ TEST(SymplecticEuler, BadInputIsRefused) {
   EXPECT_THROW(drift(vectors(x), vectors(v), vectors(few), 1e-5), InputError);
 }
 
-}  // namespace
+}  // namespace symplectic_euler_test

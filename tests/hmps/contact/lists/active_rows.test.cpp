@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace {
+namespace active_rows_test {
 
 using hmps::Index;
 using List = std::vector<Index>;
@@ -62,4 +62,4 @@ TEST(ActiveRows, MayBeEmpty) {
   EXPECT_EQ(list.awake().size(), 1U);
 }
 
-}  // namespace
+}  // namespace active_rows_test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace broad_phase_test {
 
 using hmps::Index;
 using hmps::detail::BroadPhase;
@@ -110,4 +110,4 @@ TEST(BroadPhase, LeavesOutWhatIsExcluded) {
   }
 }
 
-}  // namespace
+}  // namespace broad_phase_test

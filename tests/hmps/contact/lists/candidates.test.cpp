@@ -15,7 +15,7 @@
 #include "hmps/contact/lists/candidates_sleep.hpp"
 #include "hmps/core/executor.hpp"
 
-namespace {
+namespace candidates_test {
 
 using hmps::Index;
 using Lists = hmps::detail::Candidates<double, 3, hmps::SmoothMetaball>;
@@ -233,4 +233,4 @@ TEST(Candidates, ReportWhatIsNotFinite) {
   }
 }
 
-}  // namespace
+}  // namespace candidates_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace {
+namespace organ_pairs_test {
 
 using hmps::Index;
 using hmps::detail::is_master;
@@ -74,4 +74,4 @@ TEST(OrganPairs, RefuseWhatIsNoOrganOrNoIndex) {
   EXPECT_THROW(pairs.add_pair(a, 7, {}), hmps::InputError);
 }
 
-}  // namespace
+}  // namespace organ_pairs_test
