@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <hmps/hmps.hpp>
 #include <vector>
 
@@ -45,7 +46,7 @@ double sag(double l0, const Vector& origin) {
   return (middle[0] - sunk[0]).dot(along.col(2));
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const double l0 = argc > 1 ? std::atof(argv[1]) : 4e-3;
   const auto found = hmps::lattice_spread(l0, [&](const Vector& origin) { return sag(l0, origin); });
   for (const double value : found.values) std::printf("%.2f mm\n", 1e3 * value);
@@ -53,4 +54,7 @@ int main(int argc, char** argv) {
               1e3 * found.error);
   // The error bar does not hold what all positions of the lattice have in common: see the tutorial.
   return std::abs(found.mean - 23.4e-3) < found.error + 0.1 * 23.4e-3 ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

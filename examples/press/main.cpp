@@ -8,12 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <hmps/hmps.hpp>
 #include <utility>
 #include <vector>
 
+#include "../common/error.hpp"
+#include "../common/numbers.hpp"
 #include "organ.hpp"
 #include "output.hpp"
 
@@ -88,8 +89,14 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
 }
 
 int main(int argc, char** argv) try {
-  const double particles = argc > 1 ? std::atof(argv[1]) : 3000;
-  run(argc > 2 ? hmps::read_surface<double>(argv[2], argc > 3 ? std::atof(argv[3]) : 1) : press::organ(), particles);
+  const auto number = [&](int k, const char* name, double otherwise) {
+    const auto value = argc > k ? examples::decimal<double>(argv[k]) : otherwise;
+    examples::require(value.value_or(0) > 0, "press: ", name, " is '", argv[std::min(k, argc - 1)],
+                      "'; give a positive number");
+    return *value;
+  };
+  const double particles = number(1, "PARTICLES", 3000), scale = number(3, "SCALE", 1);
+  run(argc > 2 ? hmps::read_surface<double>(argv[2], scale) : press::organ(), particles);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

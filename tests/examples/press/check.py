@@ -37,7 +37,17 @@ def check_surface(folder, frames, plate, vtk):
     check(last.GetPointData().GetArray("von Mises stress").GetRange()[1] > 1000, "the surface bears no stress")
 
 
+def check_arguments(program):
+    """What is no positive number ends the program before it writes anything."""
+    for arguments, word in (["abc"], "PARTICLES"), (["-5"], "PARTICLES"), (["400", "organ.stl", "0x1"], "SCALE"):
+        with tempfile.TemporaryDirectory() as name:
+            found = subprocess.run([program, *arguments], cwd=name, capture_output=True, text=True)
+            check(found.returncode == 1 and f"press: {word} is '{arguments[-1]}'" in found.stderr, found.stderr)
+            check(not list(pathlib.Path(name).iterdir()), "a program that was refused has written something")
+
+
 def main(program):
+    check_arguments(program)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name) / "press"
         found = subprocess.run([program, "400"], cwd=name, capture_output=True, text=True)
