@@ -10,8 +10,8 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Resizes the arrays to the present lists.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
-void MetaballContact<S, D, Kernel, Friction>::resize() {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::resize() {
   const std::size_t row_count = lists_.active().rows().size() - 1, awake_count = lists_.active().awake().size() - 1;
   masters_.resize(awake_count);
   moving_.resize(awake_count);
@@ -28,9 +28,9 @@ void MetaballContact<S, D, Kernel, Friction>::resize() {
 }
 
 /// F_j^-1 once per particle, many at a time.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G, class E>
-void MetaballContact<S, D, Kernel, Friction>::gather(const X& x, const V& v, const G& F, const E& execute) {
+void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(gather_batch % width == 0);
   suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, detail::no_particle);
@@ -71,9 +71,9 @@ void MetaballContact<S, D, Kernel, Friction>::gather(const X& x, const V& v, con
 }
 
 /// Throws for the first particle with an invalid position, velocity or deformation gradient.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G>
-void MetaballContact<S, D, Kernel, Friction>::check_suspects(const X& x, const V& v, const G& F) const {
+void MetaballContact<S, D, Kernel, Friction, Penalty>::check_suspects(const X& x, const V& v, const G& F) const {
   for (std::size_t q = 0; q < suspect_.size(); ++q) {
     if (suspect_[q] == detail::no_particle) continue;
     for (std::size_t t = suspect_[q]; t < std::min(masters_.size(), (q + 1) * gather_batch); ++t) {
@@ -86,9 +86,10 @@ void MetaballContact<S, D, Kernel, Friction>::check_suspects(const X& x, const V
 
 /// Evaluates row `r`. Returns whether its slave touches, and if so, sets its weights of \paper{41, 42}. Sets `depth` if
 /// the wall has lost the slave.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G>
-bool MetaballContact<S, D, Kernel, Friction>::touch(std::size_t r, const X& x, const V& v, const G& F, S& depth) {
+bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, const X& x, const V& v, const G& F,
+                                                             S& depth) {
   const auto& row = lists_.active().rows()[r];
   const std::size_t begin = row.begin, size = lists_.active().rows()[r + 1].begin - begin;
   const Index slave = lists_.active().awake()[row.slave].particle;
@@ -117,8 +118,8 @@ bool MetaballContact<S, D, Kernel, Friction>::touch(std::size_t r, const X& x, c
   return true;
 }
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
-void MetaballContact<S, D, Kernel, Friction>::fail(const ContactReport<S>& report, double time) const {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<S>& report, double time) const {
   throw StateError(
       detail::message("hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
                       lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
@@ -129,10 +130,10 @@ void MetaballContact<S, D, Kernel, Friction>::fail(const ContactReport<S>& repor
 }
 
 /// Evaluates all rows, lists those that touch, and reports slaves that walls have lost.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G, class E>
-void MetaballContact<S, D, Kernel, Friction>::find(const X& x, const V& v, const G& F, ContactReport<S>& report,
-                                                   const E& execute) {
+void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V& v, const G& F,
+                                                            ContactReport<S>& report, const E& execute) {
   const std::size_t row_count = lists_.active().rows().size() - 1, count = (row_count + batch - 1) / batch;
   execute(count, [&](std::size_t q) {
     Batch result;
@@ -162,10 +163,10 @@ void MetaballContact<S, D, Kernel, Friction>::find(const X& x, const V& v, const
   }
 }
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G, class E>
-ContactReport<S> MetaballContact<S, D, Kernel, Friction>::survey(const X& x, const V& v, const G& F, double dt,
-                                                                 const E& execute) {
+ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const X& x, const V& v, const G& F, double dt,
+                                                                          const E& execute) {
   detail::require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
                   " s; give a positive number");
   require_size(x, x.size(), "positions");
@@ -188,6 +189,7 @@ ContactReport<S> MetaballContact<S, D, Kernel, Friction>::survey(const X& x, con
   report.contacts = touching_.size();
   if (touching_.empty()) return report;
 
+  if constexpr (!is_linear) require_stable(dt);
   report.sticking = push(dt, execute);
   for (const Index r : touching_)
     if (state_[r].penetration > report.penetration) {

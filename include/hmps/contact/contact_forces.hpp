@@ -9,9 +9,9 @@
 namespace hmps::inline HMPS_ABI {
 
 /// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
-S MetaballContact<S, D, Kernel, Friction>::penalty(const PenaltyStiffness& stiffness, double dt) const {
-  const double k = stiffness.at(settings_.density, dt);
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffness& stiffness, double dt) const {
+  const double k = is_linear ? stiffness.at(settings_.density, dt) : stiffness.coefficient(settings_.density, dt);
   const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
   detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
                       largest <= static_cast<double>(std::numeric_limits<S>::max()),
@@ -22,12 +22,12 @@ S MetaballContact<S, D, Kernel, Friction>::penalty(const PenaltyStiffness& stiff
 }
 
 /// Throws `InputError` if a particle that the contact may move is too light for the penalty of its pair at step `dt`.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <PerParticle Rho>
-void MetaballContact<S, D, Kernel, Friction>::require_heavy(const Rho& rho, double dt) const {
-  detail::require_step(dt);
+void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& rho, double dt) const {
   for (std::size_t p = 0; p < own_.size(); ++p) {
-    const double least = stiffness(p).at(settings_.density, dt) * dt * dt;  // of densities, at k~ = 1
+    const double k = is_linear ? stiffness(p).at(settings_.density, dt) : laws_[p].largest;
+    const double least = k * dt * dt;  // of densities, at k~ = 1
     if constexpr (std::is_arithmetic_v<Rho>)
       if (static_cast<double>(rho) > least) continue;
     for (const std::size_t o : {lists_.organs().pairs()[p].first, lists_.organs().pairs()[p].second})
@@ -44,20 +44,47 @@ void MetaballContact<S, D, Kernel, Friction>::require_heavy(const Rho& rho, doub
 }
 
 /// Computes the laws of each pair for the step `dt`.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
-void MetaballContact<S, D, Kernel, Friction>::set_laws(double dt) {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   laws_.resize(own_.size());
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const S k = penalty(stiffness(p), dt);
     laws_[p] = {k, static_cast<S>(2 * damping()) * std::sqrt(k * static_cast<S>(settings_.density)),
-                static_cast<S>(own_[p].friction.value_or(settings_.friction))};
+                static_cast<S>(own_[p].friction.value_or(settings_.friction)), 0};
+  }
+}
+
+/// Keeps the largest stiffness of the law for each pair, of the rows that touch. Throws `StateError` if it is unstable
+/// at step `dt`, and `InputError` if the force contradicts it.
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt) {
+  const double l0 = settings_.spacing;
+  for (const Index r : touching_) {
+    const auto& row = lists_.active().rows()[r];
+    const auto& side = lists_.organs().sides()[row.side];
+    PairLaw& law = laws_[side.pair];
+    const double k = static_cast<double>(law.stiffness), p = static_cast<double>(state_[r].penetration);
+    const double stiffness = penalty_.largest_stiffness(k, p, l0), force = penalty_.force(k, p, l0);
+    const double k_tilde = stiffness * dt * dt / settings_.density;
+    if (!(k_tilde < 1))
+      throw StateError(detail::message(
+          "hmps: particle ", lists_.active().awake()[row.slave].particle, " of '",
+          lists_.organs().organs()[side.slaves].name, "' is ", p, " m (", p / l0, " spacings) deep in the wall of '",
+          lists_.organs().organs()[side.masters].name, "', where the penalty law has a stiffness of ", stiffness,
+          " N/m4 and k~ = ", k_tilde, " at a step of ", dt,
+          " s; it must be below 1: use a smaller penalty coefficient or, if that is fixed, a shorter step"));
+    // From zero on a force rises by its largest slope times p at most, but for rounding.
+    detail::require(force >= 0 && force <= (1 + 1e-6) * stiffness * p, "hmps: the penalty law gives a force of ", force,
+                    " N/m3 at a penetration of ", p, " m; it must lie between 0 and ", stiffness * p,
+                    ", which is `largest_stiffness` times the penetration");
+    law.largest = std::max(law.largest, stiffness);
   }
 }
 
 /// N of `CorrectedFriction` for every awake particle.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class E>
-void MetaballContact<S, D, Kernel, Friction>::weigh(const E& execute) {
+void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     S load = 0;
@@ -71,10 +98,10 @@ void MetaballContact<S, D, Kernel, Friction>::weigh(const E& execute) {
 }
 
 /// The forces \paper{39, 40} of the rows that touch. Returns how many stick.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class E>
-std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& execute) {
-  const S rate = static_cast<S>(settings_.density / dt);
+std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, const E& execute) {
+  const S rate = static_cast<S>(settings_.density / dt), spacing = static_cast<S>(settings_.spacing);
   const bool needs_load = std::any_of(laws_.begin(), laws_.end(), [](const PairLaw& law) {
     return (Friction::needs_load && law.friction > S(0)) || law.damping > S(0);
   });
@@ -100,8 +127,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       Point velocity = state.slip;
       if constexpr (has_spring) velocity += follow(r, dt);
-      const S normal =
-          normal_force(law.stiffness, state.penetration, std::min(law.damping, most), velocity.dot(state.normal));
+      const S normal = normal_force(penalty_, law.stiffness, state.penetration, spacing, std::min(law.damping, most),
+                                    velocity.dot(state.normal));
       Point force = normal * state.normal;
       if (law.friction > S(0)) {
         const Point slip = tangential<S, D>(velocity, state.normal);
@@ -130,9 +157,9 @@ std::size_t MetaballContact<S, D, Kernel, Friction>::push(double dt, const E& ex
 
 /// Updates the elastic slip of row `r` by the motion since the previous call. Returns the part of the velocity of the
 /// wall at the slave (m/s) that \paper{31} omits: that of its rotation.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
-typename MetaballContact<S, D, Kernel, Friction>::Point MetaballContact<S, D, Kernel, Friction>::follow(Index r,
-                                                                                                        double dt) {
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+typename MetaballContact<S, D, Kernel, Friction, Penalty>::Point
+MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
   const auto& row = lists_.active().rows()[r];
   Slip& slip = history_.slip(row.slot);
   if (slip.starts) {
@@ -159,9 +186,9 @@ typename MetaballContact<S, D, Kernel, Friction>::Point MetaballContact<S, D, Ke
 }
 
 /// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class Take, class E>
-void MetaballContact<S, D, Kernel, Friction>::hand_out(const Take& take, const E& execute) const {
+void MetaballContact<S, D, Kernel, Friction, Penalty>::hand_out(const Take& take, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     // Rows that do not touch have zero force: adding it is cheaper than testing.
@@ -171,6 +198,20 @@ void MetaballContact<S, D, Kernel, Friction>::hand_out(const Take& take, const E
       force -= force_[lists_.active().entry_rows()[e]] * entry_weight_[e];
     take(own, Point(detail::first<D, S>(force)));
   });
+}
+
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+Vector<double, D> MetaballContact<S, D, Kernel, Friction, Penalty>::force_on_first(std::size_t pair) const {
+  detail::require(pair < lists_.organs().pairs().size(), "hmps: there is no pair ", pair, ", only ",
+                  lists_.organs().pairs().size(), " pairs, counted from 0");
+  Vector<double, D> sum = Vector<double, D>::Zero();
+  for (const Index r : touching_) {
+    const auto& side = lists_.organs().sides()[lists_.active().rows()[r].side];
+    if (side.pair != pair) continue;
+    const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
+    sum += side.slaves == lists_.organs().pairs()[pair].first ? force : -force;
+  }
+  return sum * std::pow(settings_.spacing, D);
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -7,9 +7,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction>
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class G>
-std::vector<Overlap> MetaballContact<S, D, Kernel, Friction>::find_overlaps(const X& x, const G& F) const {
+std::vector<Overlap> MetaballContact<S, D, Kernel, Friction, Penalty>::find_overlaps(const X& x, const G& F) const {
   require_size(x, x.size(), "positions");
   lists_.organs().require_particles(x.size());
   const NormalDensity<double, D, Kernel> Z(settings_.spacing);

@@ -16,9 +16,9 @@ struct ContactSettings {
   double density;                                             ///< rho in kg/m3.
   double friction = 0;                                        ///< mu_tan, \paper{23}; per pair: `PairSettings`.
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
-  /// Normal damping as a fraction of critical, 2 sqrt(k rho); an extension, the paper has none. It is limited so that
-  /// it does not reverse the closing velocity within a step. If not set, zero, or the value of the friction law
-  /// (`SpringFriction::damping`).
+  /// Normal damping as a fraction of critical, 2 sqrt(k rho), whatever the penalty law; an extension, the paper has
+  /// none. It is limited so that it does not reverse the closing velocity within a step. If not set, zero, or the value
+  /// of the friction law (`SpringFriction::damping`).
   std::optional<double> damping = std::nullopt;
   double margin = 0.5;  ///< Margin of the Verlet lists in spacings: motion until they are rebuilt.
 };

@@ -55,19 +55,23 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// Slaves with an undefined normal (deep inside) receive no force and are counted as deep; `check` reports them as an
 /// error.
-template <class S, int D, Metaball Kernel = SmoothMetaball, FrictionLaw Friction = CorrectedFriction>
+template <class S, int D, Metaball Kernel = SmoothMetaball, FrictionLaw Friction = CorrectedFriction,
+          class Penalty = LinearPenalty>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
+  static_assert(detail::RequirePenaltyLaw<Penalty>::value);
   using Lists = detail::Candidates<S, D, Kernel>;
   using Point = Vector<S, D>;
   using Tensor = Matrix<S, D>;
   static constexpr bool has_spring = detail::has_spring<Friction>;
+  static constexpr bool is_linear = std::is_same_v<Penalty, LinearPenalty>;
   using Slip = std::conditional_t<has_spring, detail::ElasticSlip<S, D>, detail::NoSlip>;
 
  public:
-  /// Throws `InputError` for settings that are not finite or out of range.
-  explicit MetaballContact(const ContactSettings& settings)
+  /// Throws `InputError` for settings that are not finite or out of range. `law` is a `PenaltyLaw`.
+  explicit MetaballContact(const ContactSettings& settings, const Penalty& law = {})
       : settings_(settings),
+        penalty_(law),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
     detail::require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
                     settings.density, " kg/m3; give a positive number");
@@ -109,7 +113,8 @@ class MetaballContact {
   /// Adds the contact force densities for the step `dt` (s) to `f`. Throws `InputError` for views of the wrong size, an
   /// invalid step, a penalty that `S` cannot represent, and if the deformation gradient of a particle of an organ is
   /// zero. Throws `StateError` if a position or gradient, or the velocity of a particle near another organ, is not
-  /// finite. A particle whose gradient is singular but not zero, or that `S` cannot invert, forms no wall.
+  /// finite, or if your own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that
+  /// `S` cannot invert, forms no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
   ContactReport<S> add(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
                        const VectorView<T, D>& f, double dt, const E& execute = {}) {
@@ -127,7 +132,8 @@ class MetaballContact {
   /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to `add`
   /// on zeros and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
   /// `prescribed` particles keep their velocity. Density `rho` in kg/m3: a number, a view or a callable. Throws as
-  /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1.
+  /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1;
+  /// for a `PenaltyLaw` of your own, with the largest stiffness that its pair meets.
   template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
   ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
                         double dt, const E& execute = {}) {
@@ -135,9 +141,11 @@ class MetaballContact {
     require_size(F, x.size(), "deformation gradients");
     require_positive(rho, x.size(), "density", "kg/m3");
     lists_.organs().require_particles(x.size());
-    require_heavy(rho, dt);
+    detail::require_step(dt);
+    if constexpr (is_linear) require_heavy(rho, dt);
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts == 0) return report;
+    if constexpr (!is_linear) require_heavy(rho, dt);  // of what touches
     hand_out(
         [&](const typename detail::ActiveRows<S>::Awake& own, const Point& force) {
           if (own.flags & detail::is_prescribed) return;
@@ -173,18 +181,7 @@ class MetaballContact {
   /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second in the latest call:
   /// the force of the second organ on the first. Each particle has the volume l0^D. Throws `InputError` for a pair that
   /// is not there.
-  [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const {
-    detail::require(pair < lists_.organs().pairs().size(), "hmps: there is no pair ", pair, ", only ",
-                    lists_.organs().pairs().size(), " pairs, counted from 0");
-    Vector<double, D> sum = Vector<double, D>::Zero();
-    for (const Index r : touching_) {
-      const auto& side = lists_.organs().sides()[lists_.active().rows()[r].side];
-      if (side.pair != pair) continue;
-      const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
-      sum += side.slaves == lists_.organs().pairs()[pair].first ? force : -force;
-    }
-    return sum * std::pow(settings_.spacing, D);
-  }
+  [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const;
 
   /// Calls `visit(touch)` with a `Touch<D>` for each slave in contact in the latest call, once per organ that it
   /// touches: for pressures, areas and moments. The component of the force along the normal is \paper{39}, the rest is
@@ -219,6 +216,7 @@ class MetaballContact {
   };
   struct PairLaw {
     S stiffness, damping, friction;
+    double largest;  // stiffness of the law in N/m4, of the rows that touch; 0 for `LinearPenalty`
   };
   static constexpr std::size_t batch = 8, gather_batch = 64;  // rows per batch: few, because quiet scenes have few
 
@@ -263,6 +261,7 @@ class MetaballContact {
   template <PerParticle Rho>
   void require_heavy(const Rho& rho, double dt) const;
   void set_laws(double dt);
+  void require_stable(double dt);
   template <class E>
   void weigh(const E& execute);
   template <class E>
@@ -272,6 +271,7 @@ class MetaballContact {
   void hand_out(const Take& take, const E& execute) const;
 
   ContactSettings settings_;
+  [[no_unique_address]] Penalty penalty_;
   std::vector<PairSetting> own_;  // per pair: overrides `settings_`
   std::vector<PairLaw> laws_;     // per pair, for the present call
   Lists lists_;

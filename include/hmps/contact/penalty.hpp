@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
@@ -15,7 +16,8 @@ namespace hmps::inline HMPS_ABI {
 /// halving the step makes the wall four times stiffer, and increases its chatter. `fixed` belongs to the scene and does
 /// not depend on the step; `ratio(0.3)` at step dt0 equals `fixed(0.3 * density / (dt0 * dt0))`. Either way k~ = k dt^2
 /// / rho must be below 1. The stable step of the scene falls to about dt_c sqrt(1 - k~), and a tenth less for k~ near
-/// 0.75; `stable_step` computes it.
+/// 0.75; `stable_step` computes it. With a `PenaltyLaw` of your own, the stiffness of the law takes the place of k in
+/// this limit.
 class PenaltyStiffness {
  public:
   /// k = k~ rho / dt^2. Throws `InputError` unless 0 < k~ < 1.
@@ -31,9 +33,13 @@ class PenaltyStiffness {
     return {k, false};
   }
 
-  /// k in N/m4 for density (kg/m3) and step (s). Throws `InputError` if a fixed k is too stiff.
+  /// k in N/m4 for density (kg/m3) and step (s), whatever k~ is.
+  [[nodiscard]] double coefficient(double density, double dt) const {
+    return is_ratio_ ? value_ * density / (dt * dt) : value_;
+  }
+  /// The same. Throws `InputError` if a fixed k is too stiff.
   [[nodiscard]] double at(double density, double dt) const {
-    if (is_ratio_) return value_ * density / (dt * dt);
+    if (is_ratio_) return coefficient(density, dt);
     detail::require(value_ * dt * dt < density, "hmps: a penalty of ", value_,
                     " N/m4 makes k~ = ", value_ * dt * dt / density, " at a step of ", dt,
                     " s; it must be below 1: shorten the step below ", std::sqrt(density / value_),
@@ -47,12 +53,59 @@ class PenaltyStiffness {
   bool is_ratio_;
 };
 
+/// How the wall pushes: the normal force density as a function of the penetration. A law has two functions of the
+/// penalty coefficient k (N/m4), the penetration p > 0 (m) and the spacing l0 (m):
+/// - `law.force(k, p, l0)`: the force density in N/m3, from zero at p = 0 on, never negative;
+/// - `law.largest_stiffness(k, p, l0)`: the largest slope of the force up to p, in N/m4. It takes the place of k in the
+///   condition k~ < 1, which is checked at each penetration that occurs.
+///
+/// Both are const or static and depend on nothing that changes, because any thread calls them. They are called with
+/// `double`, whatever the scalar of the contact. `PenaltyStiffness::ratio` means something only to laws that are
+/// proportional to k. Satisfied by `LinearPenalty`.
+template <class Law>
+concept PenaltyLaw = requires(const Law& law, double k, double p, double l0) {
+  { law.force(k, p, l0) } -> std::convertible_to<double>;
+  { law.largest_stiffness(k, p, l0) } -> std::convertible_to<double>;
+};
+
+/// The law of the paper, \paper{22, 39}: k p.
+struct LinearPenalty {
+  [[nodiscard]] static constexpr double force(double k, double p, double) { return k * p; }
+  [[nodiscard]] static constexpr double largest_stiffness(double k, double, double) { return k; }
+};
+
+namespace detail {
+/// A trait, since clang names the type in the message of one, but not of a concept.
+template <class Law>
+struct IsPenaltyLaw : std::bool_constant<PenaltyLaw<Law>> {};
+/// Fails if `Law` is none, with its name in the first line of the message.
+template <class Law>
+struct RequirePenaltyLaw {
+  static_assert(IsPenaltyLaw<Law>::value,
+                "hmps: a penalty law needs force(k, p, l0) in N/m3 and largest_stiffness(k, p, l0) in N/m4, const or "
+                "static, of the penalty coefficient, the penetration and the spacing");
+  static constexpr bool value = true;
+};
+}  // namespace detail
+
 /// Normal force density in N/m3, \paper{22, 39}, along n_m: k p plus, as an extension, `damping` (N s/m4) times the
 /// speed `closing` (m/s) at which wall and slave approach. Never attractive.
 template <class S>
 [[nodiscard]] S normal_force(S k, S penetration, S damping, S closing) {
   const S f = k * penetration + damping * closing;
   return f > S(0) ? f : S(0);
+}
+
+/// The same with the force of a `PenaltyLaw` instead of k p, at the spacing `l0` (m).
+template <class Law, class S>
+[[nodiscard]] S normal_force(const Law& law, S k, S penetration, S l0, S damping, S closing) {
+  if constexpr (std::is_same_v<Law, LinearPenalty>) {  // in one expression, which some compilers round as a whole
+    return normal_force(k, penetration, damping, closing);
+  } else {
+    const double force = law.force(static_cast<double>(k), static_cast<double>(penetration), static_cast<double>(l0));
+    const S f = static_cast<S>(force) + damping * closing;
+    return f > S(0) ? f : S(0);
+  }
 }
 
 /// v_im,tan in m/s, \paper{24}.

@@ -16,10 +16,10 @@ namespace hmps::inline HMPS_ABI {
 /// stored and carries the load at rest.
 ///
 /// The force is `spring_friction`, with the share of `CorrectedFriction` as damping, the largest that does not reverse
-/// the slip within a step. The stiffness is the penalty coefficient k of the pair, so that the elastic slip is at most
-/// mu times the penetration: walls yield tangentially as little as normally. It is limited where the spring would take
-/// back more than the whole elastic slip within a step. Below twice that limit, a mode that the share stops at once is
-/// stable at every step that is stable without contact.
+/// the slip within a step. The stiffness is the penalty coefficient k of the pair, so that with `LinearPenalty` the
+/// elastic slip is at most mu times the penetration: walls yield tangentially as little as normally. It is limited
+/// where the spring would take back more than the whole elastic slip within a step. Below twice that limit, a mode that
+/// the share stops at once is stable at every step that is stable without contact.
 ///
 /// Spring and damper share the limit, so that a slave that slows down sticks below it and not at it: the friction of
 /// slaves at the limit follows their normal force, which feeds vibrations. A body without viscosity can keep shaking
