@@ -13,9 +13,9 @@ int main(int argc, char** argv) {
   std::vector<double> spacings{2.4, 1.8, 1.6, 1.2};
   std::vector<std::string> chosen;
   study.app.add_option("spacings", spacings, "of the plates, in mm")->capture_default_str();
-  study.app.add_option("--only", chosen, "tables to make anew: plate, any, ring, bar")
+  study.app.add_option("--only", chosen, "tables to make anew: plate, any, ring, bar, bend")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"plate", "any", "ring", "bar"}));
+      ->check(CLI::IsMember({"plate", "any", "ring", "bar", "bend"}));
   return study.run(argc, argv, [&] {
     if (study.quick) spacings = {2.4};
     for (double& spacing : spacings) spacing *= 1e-3;
@@ -26,5 +26,6 @@ int main(int argc, char** argv) {
     if (wanted("any")) study.publish(fitted::plate_about_any_axis(spacings, study.quick));
     if (wanted("ring")) study.publish(fitted::pinched_ring(study.quick));
     if (wanted("bar")) study.publish(fitted::twisted_bar(study.quick));
+    if (wanted("bend")) study.publish(fitted::bent_strip(study.quick));
   });
 }

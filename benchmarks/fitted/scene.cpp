@@ -86,6 +86,24 @@ void FittedBody::settle(const std::function<Vector(std::size_t)>& load, double t
                }});
 }
 
+void FittedBody::settle_held(const std::function<void(const hmps::VectorView<double, 3>&)>& hold, double total,
+                             double tolerance) {
+  const auto force = [&](const auto& x, const auto& v, const auto& f) {
+    internal_(x, v, f);
+    hold(f);
+  };
+  constexpr double density = 1000;  // means nothing in statics
+  hmps::relax(force, body_.x(), body_.v(), body_.f(), density,
+              {.spacing = body_.spacing, .tolerance = tolerance, .load = total});
+}
+
+const std::vector<Vector>& FittedBody::internal_forces() {
+  body_.velocity.assign(body_.size(), Vector::Zero());
+  body_.unload();
+  internal_(body_.x(), body_.v(), body_.f());
+  return body_.load;
+}
+
 double FittedBody::frequency(const std::vector<Vector>& shape, double density) {
   body_.position = body_.reference;
   body_.velocity = shape;

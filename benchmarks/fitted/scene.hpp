@@ -56,9 +56,16 @@ class FittedBody {
   [[nodiscard]] std::size_t moving() const { return moving_; }
   [[nodiscard]] const Vector& reference(std::size_t i) const { return body_.reference[i]; }
   [[nodiscard]] Vector displacement(std::size_t i) const { return body_.displacement(i); }
+  [[nodiscard]] const Vector& position(std::size_t i) const { return body_.position[i]; }
+  void place(std::size_t i, const Vector& x) { body_.position[i] = x; }
 
   /// Brings the body to rest under `load(i)` (N/m3) until the unbalanced forces are `tolerance` times `total` (N).
   void settle(const std::function<Vector(std::size_t)>& load, double total, double tolerance = 2e-3);
+  /// Brings the body to rest from where its particles are, all of which move; `hold` takes from the forces (N/m3) what
+  /// the particles may not follow. Ends as `settle` does.
+  void settle_held(const std::function<void(const hmps::VectorView<double, 3>&)>& hold, double total, double tolerance);
+  /// The internal forces in N/m3 at rest where the particles are.
+  [[nodiscard]] const std::vector<Vector>& internal_forces();
   /// The frequency in Hz of a small vibration without viscosity, started from the reference configuration with the
   /// velocities `shape` (m/s) of the particles that move: over the period from the first to the third time at which the
   /// displacement along `shape` passes zero.
@@ -85,5 +92,6 @@ struct Spread {
 [[nodiscard]] report::Table plate_about_any_axis(const std::vector<double>& spacings, bool quick);
 [[nodiscard]] report::Table twisted_bar(bool quick);   ///< bar.cpp
 [[nodiscard]] report::Table pinched_ring(bool quick);  ///< ring.cpp
+[[nodiscard]] report::Table bent_strip(bool quick);    ///< bend.cpp
 
 }  // namespace fitted
