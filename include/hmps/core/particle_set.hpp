@@ -85,7 +85,7 @@ namespace detail {
 /// The set of particles that `predicate` is, or that it holds as a `std::function` (which can only be seen with RTTI);
 /// null if it is none.
 template <class Predicate>
-[[nodiscard]] const ParticleSet* set_in(const Predicate& predicate) {
+[[nodiscard]] const ParticleSet* set_in([[maybe_unused]] const Predicate& predicate) {
   if constexpr (std::is_same_v<Predicate, ParticleSet>) return &predicate;
 #ifdef __cpp_rtti
   if constexpr (requires { predicate.template target<ParticleSet>(); }) return predicate.template target<ParticleSet>();

@@ -135,7 +135,7 @@ class PatchPressure {
       whole += across.norm();
     }
     // On an outer surface they lie half a spacing and more behind it, on a middle surface neither ahead nor behind.
-    detail::require(ahead < 0.2 * spacing * whole, "hmps: the normals of ", mesh.source,
+    detail::require(ahead <= 0.2 * spacing * whole, "hmps: the normals of ", mesh.source,
                     " point into the body, whose particles lie ", ahead / whole,
                     " m ahead of it: a pressure would pull; swap two corners of each triangle");
   }
