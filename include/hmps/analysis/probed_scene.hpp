@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
@@ -66,10 +68,16 @@ class ProbedScene {
         minus_(size_),
         length_(length),
         speed_(length) {
+    double farthest = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       x_[i] = x[i];
+      farthest = std::max(farthest, static_cast<double>(x_[i].cwiseAbs().maxCoeff()));
       for (int c = 0; c < D; ++c) v_[i][c] = static_cast<T>(v(i, c));
     }
+    require(length >= 8 * static_cast<double>(std::numeric_limits<T>::epsilon()) * farthest,
+            "hmps: the trial displacements of stable_step are ", length, " m, which vanishes in the rounding of ",
+            8 * sizeof(T), "-bit positions of up to ", farthest,
+            " m; give the spacing in metres, a larger perturbation, or positions in double nearer to the origin");
   }
 
   [[nodiscard]] bool damped() const { return damped_; }

@@ -15,6 +15,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/time/symplectic_euler.hpp"
@@ -248,6 +249,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   require_apart(x, "positions", f, "force densities");
   require_apart(v, "velocities", f, "force densities");
   require_positive(rho, n, "density", "kg/m3");
+  detail::require_scene(settings.moves, n, "that move in relax");
   require_finite(x, "the position");
   detail::RelaxingBody body(x, v, f, rho, settings, execute);
 

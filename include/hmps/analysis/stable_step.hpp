@@ -10,6 +10,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 
@@ -45,7 +46,8 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
-/// bad settings or views, or if `start` has a different number of particles; `StateError` if the force of a particle is
+/// bad settings or views, for trial displacements that vanish in the rounding of the positions, and if `start` or a set
+/// of particles in `moves` has a different number of particles; `StateError` if the force of a particle is
 /// not finite.
 template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Serial>
 [[nodiscard]] StableStep stable_step(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
@@ -58,6 +60,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   detail::require(x.size() > 0, "hmps: stable_step was given no particle");
   require_size(v, x.size(), "velocities");
   require_positive(density, x.size(), "density", "kg/m3");
+  detail::require_scene(settings.moves, x.size(), "that move in stable_step");
   require_finite(x, "the position");
   require_finite(v, "the velocity");
   detail::StepSearch<std::remove_reference_t<Force>, T, D, Rho, E> search(force, x, v, density, settings, execute);

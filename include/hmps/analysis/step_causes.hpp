@@ -13,6 +13,7 @@
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/stable_step.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
@@ -56,6 +57,11 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   detail::require(found.mode.size() == n * D, "hmps: the mode whose causes are asked for has ", found.mode.size(),
                   " numbers, but ", n, " particles in ", D, " dimensions need ", n * D,
                   "; give the result of stable_step for the same particles");
+  double squares = 0;
+  for (const double amplitude : found.mode) squares += amplitude * amplitude;
+  detail::require(detail::is_finite(squares) && squares > 0,
+                  "hmps: the mode whose causes are asked for has the length ", std::sqrt(squares),
+                  "; give the result of stable_step");
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
   std::vector<StepCause> causes;
@@ -79,8 +85,8 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
 }
 
 /// How well the bonds of `particle` support it: the smallest eigenvalue of its A (\paper{12}) divided by that of a full
-/// neighbourhood. 1 inside, 0.5 at a flat surface of a lattice, 0.28 at the corner of a cube. The stiffness of a
-/// particle grows as this falls.
+/// neighbourhood. 1 inside, 0.5 at a flat surface of a lattice, 0.28 at the corner of a cube, 0 without bonds. The
+/// stiffness of a particle grows as this falls.
 template <class K, int D>
 [[nodiscard]] double relative_support(const Blocks<K, D>& bonds, std::size_t particle) {
   detail::require(particle < bonds.size(), "hmps: the support of particle ", particle,
@@ -88,7 +94,8 @@ template <class K, int D>
   const Matrix<double, D> inverse = bonds.shape_inverse(particle).template cast<double>();
   const Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver(inverse, Eigen::EigenvaluesOnly);
   const double full = bonds.standard_lambda() * bonds.standard_density() / D;
-  return 1 / (solver.eigenvalues()[D - 1] * full);
+  const double largest = solver.eigenvalues()[D - 1];
+  return largest > 0 ? 1 / (largest * full) : 0;
 }
 
 /// One line of text with the largest stable step, the particle that limits it, and the causes.

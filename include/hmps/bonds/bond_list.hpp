@@ -41,7 +41,8 @@ class BondList : public Blocks<K, D> {
 
   /// Bonds all pairs of `reference` (m) within the effective radius for which `bonded(i, j)` holds; the predicate must
   /// be symmetric. Throws `InputError` for coincident particles, positions that are not finite, neighbourhoods that do
-  /// not span space, and a spacing that does not fit the cloud: another unit, or far too large or small.
+  /// not span space, a spacing that does not fit the cloud (another unit, or far too large or small), a predicate that
+  /// is not symmetric (unless particles may be unbonded), and a weight that is negative or not finite.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
   explicit BondList(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
                     Weight&& weight = {})
@@ -57,9 +58,10 @@ class BondList : public Blocks<K, D> {
         static_cast<double>(reach),
         [&](Index i, const auto& keep) {
           for (const Index j : list[i]) {
-            if (!bonded(std::size_t{i}, std::size_t{j})) continue;
+            if (!detail::are_bonded(bonded, std::size_t{i}, std::size_t{j}, settings.unbonded)) continue;
             const Vector<double, D> r0 = this->reference(j) - this->reference(i);
             const double w = weight(std::min(r0.norm(), radius), radius);
+            detail::require_weight(w, r0.norm());
             if (w > 0) keep(j, r0, w);
           }
         },
@@ -202,7 +204,11 @@ class BondList : public Blocks<K, D> {
       }
       add_rows(halves);
     }
-    if (this->size() > 0) this->keep_standard(fullest.weight, fullest.A.trace() / fullest.weight);
+    detail::require_standard_weight(fullest.weight);
+    // Where no particle has a bond nothing is summed, whatever the scale.
+    if (this->size() > 0)
+      this->keep_standard(fullest.weight > 0 ? fullest.weight : 1,
+                          fullest.weight > 0 ? fullest.A.trace() / fullest.weight : 1);
     weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // padding for the prefetch
     weights_.shrink_to_fit();
     starts_.shrink_to_fit();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
@@ -37,6 +38,33 @@ inline void validate(const BondSettings& settings) {
   require(detail::is_finite(settings.radius_ratio) && settings.radius_ratio > 0,
           "hmps: the effective radius over the spacing is ", settings.radius_ratio,
           "; it must be positive (the paper has 1.75)");
+}
+
+/// Whether `bonded(i, j)` holds. Throws `InputError` if `bonded(j, i)` says otherwise: the forces of such a bond would
+/// not sum to zero. Only particles that a part borrows (`BondSettings::unbonded`) may be bonded from one end.
+template <class Bonded>
+[[nodiscard]] bool are_bonded(Bonded& bonded, std::size_t i, std::size_t j, bool from_one_end = false) {
+  const bool there = bonded(i, j);
+  if constexpr (!std::is_same_v<std::remove_cv_t<Bonded>, EveryBond>)
+    require(from_one_end || there == static_cast<bool>(bonded(j, i)), "hmps: particles ", i, " and ", j, " are ",
+            there ? "" : "not ", "bonded by bonded(", i, ", ", j, ") but ", there ? "not " : "", "by bonded(", j, ", ",
+            i, "); give the same answer for both orders");
+  return there;
+}
+
+/// Throws `InputError` for the weight `w` of a bond of the length `distance` (m) if it is negative, not finite or so
+/// large that sums of weights overflow.
+inline void require_weight(double w, double distance) {
+  require(is_finite(w) && w >= 0 && w <= 1e30, "hmps: the weight at the distance ", distance, " m is ", w,
+          "; a weight function must be finite and not negative within the effective radius, and at most 1e30 (a common "
+          "factor of all weights changes nothing)");
+}
+
+/// Throws `InputError` for the sum `density` of the weights of the fullest neighbourhood if it is so small that
+/// products of weights vanish.
+inline void require_standard_weight(double density) {
+  require(density == 0 || density >= 1e-30, "hmps: the weights of the fullest neighbourhood sum to ", density,
+          "; give larger ones (a common factor of all weights changes nothing)");
 }
 }  // namespace detail
 

@@ -183,8 +183,7 @@ class LatticeBonds : public Blocks<K, D> {
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
       const double radius = settings.spacing * settings.radius_ratio;
       const double w = weight(std::min(r0.norm(), radius), radius);
-      detail::require(detail::is_finite(w), "hmps: the weight at the distance ", r0.norm(), " m is ", w,
-                      "; a weight function must be finite within the effective radius");
+      detail::require_weight(w, r0.norm());
       if (!(w > 0)) continue;
       inside.add(r0, w);
       Offset& offset = offset_.emplace_back();
@@ -195,7 +194,9 @@ class LatticeBonds : public Blocks<K, D> {
       for (std::size_t s = 0, t = 0; s < n; ++s) {
         while (t < n && keys[t] < keys[s] + step) ++t;
         if (t == n) break;
-        if (keys[t] != keys[s] + step || !bonded(this->particle(s), this->particle(t))) continue;
+        if (keys[t] != keys[s] + step ||
+            !detail::are_bonded(bonded, this->particle(s), this->particle(t), settings.unbonded))
+          continue;
         shapes[this->particle(s)].add(r0, w);
         const std::size_t group = s / width * directions + axes_of(cell) - 1;
         const auto first =
@@ -215,6 +216,7 @@ class LatticeBonds : public Blocks<K, D> {
     for (std::size_t i = 0; i < n; ++i)
       this->keep_shape(i, shapes[i].inverse(i, settings.unbonded), shapes[i].asymmetry, shapes[i].A.trace());
     this->share_shapes();
+    detail::require_standard_weight(inside.weight);
     this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
   }
 

@@ -16,10 +16,10 @@ namespace hmps::inline HMPS_ABI::detail {
 /// Throws `InputError` if `settings` do not fit the cloud of `search`: if its particles have more than four times the
 /// neighbours expected within the radius, or if nine in ten have none. Both occur when metres and millimetres are
 /// mixed. The former would take memory quadratic in the number of particles, so 64 particles, spread over the cloud,
-/// are tested first.
+/// are tested first. The second test is left out unless `also_alone`.
 template <class T, int D>
 void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
-                               typename VectorView<T, D>::Scalar radius) {
+                               typename VectorView<T, D>::Scalar radius, bool also_alone = true) {
   constexpr std::size_t most_samples = 64;
   constexpr double ball = D == 3 ? 4.18879 : 3.14159;  // of radius 1: as many particles, of a spacing of 1
   const double usual = std::max(2.0 * D, ball * std::pow(settings.radius_ratio, D));
@@ -49,7 +49,7 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                              " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
                              "; the typical distance to the nearest particle is ", nearest(),
                              " m: give a spacing of that size, in the unit of the positions"));
-  if (10 * alone >= 9 * samples)
+  if (also_alone && 10 * alone >= 9 * samples)
     throw InputError(message("hmps: particle ", lonely, " has 0 neighbours within the effective radius of ", radius,
                              " m, and so have ", alone, " of ", samples,
                              " particles that were looked at; a spacing of ", settings.spacing,

@@ -163,6 +163,39 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V&
   }
 }
 
+/// Looks at each organ once, at its first call.
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class X>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x) {
+  constexpr std::size_t fewest = 16, most_samples = 64;  // of fewer particles the distance says little
+  const detail::OrganPairs& organs = lists_.organs();
+  detail::require(organs.organs().size() < 2 || !organs.pairs().empty(), "hmps: contact has ", organs.organs().size(),
+                  " organs but no pair of them may touch; declare pairs with add_pair");
+  for (; seen_organs_ < organs.organs().size(); ++seen_organs_) {
+    const auto& organ = organs.organs()[seen_organs_];
+    const std::size_t n = organ.end - organ.begin, samples = std::min(n, most_samples);
+    if (n < fewest) continue;
+    const double reach = Kernel::radius * settings_.spacing;
+    const auto place = [&](std::size_t k) -> Vector<double, D> {
+      return x[organs.members()[organ.begin + k].particle].template cast<double>();
+    };
+    bool finite = true;  // where not, `gather` says so
+    for (std::size_t k = 0; k < n; ++k) finite = finite && detail::all_finite(place(k));
+    if (!finite) continue;
+    detail::Grid<double, D> grid;
+    grid.build(n, reach, place);
+    std::size_t alone = 0;
+    for (std::size_t k = 0; k < samples; ++k) {
+      std::size_t found = 0;
+      grid.visit(place(k * n / samples), reach, [&](Index, double) { ++found; });
+      alone += found < 2 ? 1 : 0;
+    }
+    detail::require(10 * alone < 9 * samples, "hmps: ", alone, " of ", samples, " particles of '", organ.name,
+                    "' that were looked at have no other within ", Kernel::radius, " spacings of ", settings_.spacing,
+                    " m, so that they form no wall; give contact the particles' spacing, in the unit of the positions");
+  }
+}
+
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G, class E>
 ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const X& x, const V& v, const G& F, double dt,
@@ -172,6 +205,7 @@ ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const 
   require_size(x, x.size(), "positions");
   require_size(v, x.size(), "velocities");
   lists_.organs().require_particles(x.size());
+  require_scene(x);
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
   history_.next_call();

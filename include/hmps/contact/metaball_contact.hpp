@@ -111,10 +111,11 @@ class MetaballContact {
   }
 
   /// Adds the contact force densities for the step `dt` (s) to `f`. Throws `InputError` for views of the wrong size, an
-  /// invalid step, a penalty that `S` cannot represent, and if the deformation gradient of a particle of an organ is
-  /// zero. Throws `StateError` if a position or gradient, or the velocity of a particle near another organ, is not
-  /// finite, or if your own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that
-  /// `S` cannot invert, forms no wall.
+  /// invalid step, a penalty that `S` cannot represent, organs of which no pair may touch, a spacing far below that of
+  /// an organ's particles at its first call, and if the deformation gradient of a particle of an organ is zero. Throws
+  /// `StateError` if a position or gradient, or the velocity of a particle near another organ, is not finite, or if your
+  /// own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that `S` cannot invert,
+  /// forms no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
   ContactReport<S> add(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
                        const VectorView<T, D>& f, double dt, const E& execute = {}) {
@@ -232,6 +233,9 @@ class MetaballContact {
           execute);
     return report;
   }
+  /// Throws `InputError` for organs without any pair, and for a spacing far below that of the particles of an organ.
+  template <class X>
+  void require_scene(const X& x);
   /// Computes the forces of all rows that touch, for `hand_out`.
   template <class X, class V, class G, class E>
   ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
@@ -274,6 +278,7 @@ class MetaballContact {
   [[no_unique_address]] Penalty penalty_;
   std::vector<PairSetting> own_;  // per pair: overrides `settings_`
   std::vector<PairLaw> laws_;     // per pair, for the present call
+  std::size_t seen_organs_ = 0;   // by `require_scene`
   Lists lists_;
   std::vector<detail::Master<S, D>> masters_;  // per awake particle
   std::vector<detail::MovingMaster<S, D>> moving_;

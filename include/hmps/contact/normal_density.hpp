@@ -28,12 +28,16 @@ namespace hmps::inline HMPS_ABI {
 template <class S, int D, Metaball Kernel = PaperMetaball>
 class NormalDensity {
  public:
-  /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite.
+  /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite, and for a kernel that forms no wall.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
     detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
                     " m; give the particles' positive distance in the reference configuration");
     find_deepest();
     const double top = in_spacings(deepest_);
+    detail::require(detail::is_finite(top) && top > 0 && least_slope_ > 0,
+                    "hmps: the metaball kernel forms no wall: its "
+                    "sum is ",
+                    top, " at ", deepest_, " spacings; its value must be finite and fall from above 0 to 0");
     table_.resize(nodes + 1);
     std::vector<double> distance(nodes + 1);
     distance[0] = Kernel::radius;

@@ -37,12 +37,13 @@ class SurfaceCorrection {
   /// @param shape      `shape(x)`, about the signed distance to the surface in m, negative inside
   /// @param spacing    l0 in m
   /// Throws `InputError` for a particle that does not exist or lies further than 1.5 spacings from where it should,
-  /// and where the shape does not tell which way is out.
+  /// where the shape does not tell which way is out, and where most particles lie outside of it: it is inside out.
   template <class T, class Shape>
   SurfaceCorrection(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
     detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
                     " m; give the particles' positive distance in the reference configuration");
+    std::size_t outside = 0;
     for (const Index i : skin_) {
       detail::require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
                       reference.size(), " particles");
@@ -54,7 +55,11 @@ class SurfaceCorrection {
           "give about the signed distance in m");
       offset_.push_back(offset->template cast<S>());
       particles_ = std::max(particles_, std::size_t{i} + 1);
+      outside += distance(shape, start) > 0;
     }
+    detail::require(2 * outside <= skin_.size(), "hmps: ", outside, " of ", skin_.size(),
+                    " particles of a skin lie outside of the shape that they are raised to; is it inside out? It must "
+                    "be negative inside");
   }
 
   /// The offset in m of a particle at `start`; empty if it is further than 1.5 spacings from its place or the shape

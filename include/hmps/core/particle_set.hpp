@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -78,5 +79,29 @@ class ParticleSet {
   std::vector<char> member_;
   std::vector<Index> indices_;
 };
+
+namespace detail {
+
+/// The set of particles that `predicate` is, or that it holds as a `std::function` (which can only be seen with RTTI);
+/// null if it is none.
+template <class Predicate>
+[[nodiscard]] const ParticleSet* set_in([[maybe_unused]] const Predicate& predicate) {
+  if constexpr (std::is_same_v<Predicate, ParticleSet>) return &predicate;
+#ifdef __cpp_rtti
+  if constexpr (requires { predicate.template target<ParticleSet>(); }) return predicate.template target<ParticleSet>();
+#endif
+  return nullptr;
+}
+
+/// Throws `InputError` if `predicate` is a set of particles of another scene than one of `size` particles. `what` says
+/// which particles are asked for.
+template <class Predicate>
+void require_scene(const Predicate& predicate, std::size_t size, const char* what) {
+  const ParticleSet* const set = set_in(predicate);
+  require(set == nullptr || set->scene_size() == size, "hmps: the set of particles ", what, " is one of ",
+          set == nullptr ? 0 : set->scene_size(), " particles, but there are ", size, "; make it for all of them");
+}
+
+}  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

@@ -32,6 +32,7 @@ namespace hmps::inline HMPS_ABI {
 template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double kinetic_energy(const VectorView<T, D>& v, const Rho& density, const Vol& volume,
                                     const E& execute = {}) {
+  require_view(v, "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
   require_positive(volume, v.size(), "volume", "m3");
   return reduce(
@@ -51,6 +52,7 @@ template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double strain_energy(const MatrixView<T, D>& F, const Material& material, const Vol& volume,
                                    const E& execute = {}) {
+  require_view(F, "deformation gradients");
   require_positive(volume, F.size(), "volume", "m3");
   return reduce(
       F.size(), 0.0,

@@ -37,6 +37,7 @@ template <int D>
 template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] Vector<double, D> linear_momentum(const VectorView<T, D>& v, const Rho& density, const Vol& volume,
                                                 const E& execute = {}) {
+  require_view(v, "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
   require_positive(volume, v.size(), "volume", "m3");
   using Sum = Vector<double, D>;

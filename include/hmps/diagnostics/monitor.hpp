@@ -91,7 +91,8 @@ template <class X, class V, class FView, int D, class E>
                                               const StateLimits& limits, const E& execute) {
   require_view(x, "positions");
   require_size(v, x.size(), "velocities");
-  require(!is_nan(limits.speed_limit), "hmps: the speed limit is NaN; give a positive number of m/s");
+  require(!is_nan(limits.speed_limit) && limits.speed_limit >= 0, "hmps: the speed limit is ", limits.speed_limit,
+          " m/s; give a positive number");
   if (F != nullptr) require_size(*F, x.size(), "deformation gradients");
   const auto survey = [&](std::size_t i) {
     StateSurvey s;

@@ -41,7 +41,7 @@ class ForceSweeps {
         damping_each_(bonds.slot_count()),
         dilatation_(bonds.slot_count()),
         pressure_(bonds.slot_count()) {
-    std::apply([&](const auto&... term) { (check(term, bonds.size()), ...); }, terms_);
+    std::apply([&](const auto&... term) { (check(term, bonds), ...); }, terms_);
     if constexpr (damps) {
       double sum = 0;
       std::apply([&](const auto&... term) { (add_damping(term, bonds, sum), ...); }, terms_);
@@ -177,8 +177,15 @@ class ForceSweeps {
 
  private:
   template <class Term>
-  static void check(const Term& term, std::size_t size) {
-    if constexpr (requires { term.check(size); }) term.check(size);
+  static void check(const Term& term, const B& bonds) {
+    if constexpr (requires { term.check(bonds.size()); }) term.check(bonds.size());
+    if constexpr (requires(const BlockOfParticles<K, D>& particles) { term.check_parameters(particles); }) {
+      // Stretched and sheared by a thousandth: laws respond, and none is beyond its range.
+      Matrix<T, D> F;
+      for (int k = 0; k < D * D; ++k) F(k % D, k / D) = T(k % D == k / D ? K(1.001) : K(0.0002) * static_cast<K>(k));
+      for (std::size_t block = 0; block < bonds.block_count(); ++block)
+        term.check_parameters(BlockOfParticles<K, D>(bonds, block, F, bonds.shape_inverse_lanes(block)));
+    }
   }
   template <class Term>
   static void add_damping(const Term& term, const B& bonds, double& sum) {

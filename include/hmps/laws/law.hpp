@@ -103,7 +103,7 @@ template <class Law, class T, int D>
 
 /// The speed of longitudinal waves in m/s at zero strain, sqrt((K + 4 G / 3) / rho), for a law with
 /// `bulk_modulus()` and `shear_modulus()` in Pa and a `density` in kg/m3. Throws `InputError` for a
-/// density that is not positive.
+/// density that is not positive, and for a law whose K + 4 G / 3 is not.
 template <class Law, class P>
 [[nodiscard]] auto sound_speed(const Law& law, P density) {
   static_assert(
@@ -111,7 +111,10 @@ template <class Law, class P>
       "hmps: the sound speed needs a law with bulk_modulus() and shear_modulus()");
   detail::require(detail::is_finite(density) && density > P(0), "hmps: the density is ", density,
                   " kg/m3; it must be positive (soft tissue: about 1000)");
-  return std::sqrt((law.bulk_modulus() + law.shear_modulus() * P(4) / P(3)) / density);
+  const auto modulus = law.bulk_modulus() + law.shear_modulus() * P(4) / P(3);
+  detail::require(detail::is_finite(modulus) && modulus > 0, "hmps: the modulus K + 4 G / 3 of the law is ", modulus,
+                  " Pa, which gives no speed of sound; give a law with positive moduli (Poisson's ratio below 0.5)");
+  return std::sqrt(modulus / density);
 }
 
 namespace detail {
@@ -121,6 +124,15 @@ template <class P>
 void require_modulus(P value, const char* law, const char* name, const char* remedy) {
   require(is_finite(value) && value > P(0), "hmps: the ", name, " of ", law, " is ", value,
           " Pa; it must be positive and finite: ", remedy);
+}
+
+/// Throws `InputError` if Poisson's ratio is below -1/2, K < G / 6, with both moduli in Pa: few materials are like
+/// that, but every soft tissue is whose moduli were interchanged.
+template <class P>
+void require_order(P bulk, P shear, const char* law) {
+  require(P(6) * bulk >= shear, "hmps: the bulk modulus of ", law, " is ", bulk, " Pa beside a shear modulus of ",
+          shear, " Pa, so that Poisson's ratio is ", (P(3) * bulk - P(2) * shear) / (P(6) * bulk + P(2) * shear),
+          "; are the two interchanged? from_moduli takes the bulk modulus first");
 }
 
 }  // namespace detail

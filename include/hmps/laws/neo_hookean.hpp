@@ -33,11 +33,12 @@ struct NeoHookean {
   [[nodiscard]] P bulk_modulus() const { return kappa; }
   [[nodiscard]] P shear_modulus() const { return mu; }
 
-  /// Throws `InputError` unless both moduli are positive and finite.
+  /// Throws `InputError` unless both moduli are positive and finite, and if Poisson's ratio is below -1/2.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(mu, "NeoHookean", "shear modulus mu", "from_young needs E > 0 and Poisson's ratio > -1");
     detail::require_modulus(kappa, "NeoHookean", "bulk modulus kappa",
                             "from_young needs Poisson's ratio < 0.5; a ratio of 0.5 has no finite bulk modulus");
+    detail::require_order(bulk_modulus(), shear_modulus(), "NeoHookean");
   }
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F and J = det F > 0.

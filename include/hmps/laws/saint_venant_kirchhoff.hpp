@@ -35,12 +35,13 @@ struct SaintVenantKirchhoff {
   [[nodiscard]] P bulk_modulus() const { return lambda + mu * P(2) / P(3); }
   [[nodiscard]] P shear_modulus() const { return mu; }
 
-  /// Throws `InputError` unless bulk and shear modulus are positive and finite.
+  /// Throws `InputError` unless bulk and shear modulus are positive and finite, and if Poisson's ratio is below -1/2.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(mu, "SaintVenantKirchhoff", "shear modulus mu",
                             "from_young needs E > 0 and Poisson's ratio > -1");
     detail::require_modulus(bulk_modulus(), "SaintVenantKirchhoff", "bulk modulus lambda + 2 mu / 3",
                             "from_young needs Poisson's ratio < 0.5");
+    detail::require_order(bulk_modulus(), shear_modulus(), "SaintVenantKirchhoff");
   }
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F. Does not ask for J.

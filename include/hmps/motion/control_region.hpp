@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,12 +32,15 @@ requires Motion<M, D>
 class ControlRegion {
  public:
   /// The particles are a list of indices in any order, or a `ParticleSet`. Throws `InputError` if the region has no
-  /// particle, and for an index out of range, a repeated index, a reference position that is not finite, or a set of
-  /// another number of particles.
+  /// particle or an empty function as motion, and for an index out of range, a repeated index, a reference position
+  /// that is not finite, or a set of another number of particles.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
     detail::require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
     require_view(reference, "reference positions");
+    if constexpr (std::is_same_v<M, std::function<Pose<double, D>(double)>>)
+      detail::require(static_cast<bool>(motion_),
+                      "hmps: the motion of a control region is an empty function; give it one");
     std::vector<Index> sorted = particles_;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k < sorted.size(); ++k) {
@@ -80,8 +84,8 @@ class ControlRegion {
     detail::require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
                     " s; give a positive step");
     detail::require(detail::is_finite(t), "hmps: a control region is moved to the time ", t, " s; give finite seconds");
-    detail::require(!detail::is_nan(speed_limit), "hmps: the speed limit of a control region is ", speed_limit,
-                    " m/s; give a positive number, or leave it out");
+    detail::require(!detail::is_nan(speed_limit) && speed_limit >= 0, "hmps: the speed limit of a control region is ",
+                    speed_limit, " m/s; give a positive number, or leave it out");
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
     const auto pose = motion_(t);
@@ -115,20 +119,29 @@ class ControlRegion {
   }
 
   /// Moves the region's particles to their prescribed positions at time `t` (s), with the velocity of the motion
-  /// (central difference over 2 microseconds). Use it to start a run in the middle of a motion.
+  /// (central difference over 2 microseconds). Use it to start a run in the middle of a motion. Throws `InputError` for
+  /// views of other sizes and a time that is not finite, and `StateError` for a motion that is not finite then.
   template <class X, class V>
   void place(const VectorView<X, D>& x, const VectorView<V, D>& v, double t) const {
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
+    detail::require(detail::is_finite(t), "hmps: a control region is placed at the time ", t,
+                    " s; give finite seconds");
     constexpr double h = 1e-6;
     const auto now = motion_(t);
     const auto before = motion_(t - h);
     const auto after = motion_(t + h);
     for (const Index i : particles_) {
       const Vector<double, D> reference = reference_[i].template cast<double>();
-      x.set(i, Vector<double, D>(now(reference)));
-      v.set(i,
-            Vector<double, D>((Vector<double, D>(after(reference)) - Vector<double, D>(before(reference))) / (2 * h)));
+      const Vector<double, D> place = now(reference);
+      const Vector<double, D> rate =
+          (Vector<double, D>(after(reference)) - Vector<double, D>(before(reference))) / (2 * h);
+      if (!detail::all_finite(place) || !detail::all_finite(rate))
+        throw StateError(detail::message("hmps: a control region puts particle ", i, " at (", place.transpose(),
+                                         ") with the velocity (", rate.transpose(), ") m/s at ", t,
+                                         " s; check its motion"));
+      x.set(i, place);
+      v.set(i, rate);
     }
   }
 

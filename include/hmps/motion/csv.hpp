@@ -116,10 +116,12 @@ void for_each_cell(std::string_view line, Use&& use) {
 
 /// Makes keyframes from the columns `names` of a table, with the times in its column `time` (s). Multiplies the values
 /// by `scale` (1e-3 for millimetres, pi/180 for degrees). Throws `InputError`, with the line, for a missing column, an
-/// empty table, and times that do not increase.
+/// empty table, a scale of zero, and times that do not increase.
 template <std::size_t N>
 [[nodiscard]] Keyframes<static_cast<int>(N)> keyframes(const Table& table, const std::array<std::string_view, N>& names,
                                                        double scale = 1, std::string_view time = "t") {
+  detail::require(detail::is_finite(scale) && scale != 0, "hmps: the keyframes of ", table.source,
+                  " are to be scaled by ", scale, "; give a factor that is not zero, 1e-3 for millimetres");
   const std::size_t clock = table.column(time);
   std::array<std::size_t, N> columns{};
   for (std::size_t c = 0; c < N; ++c) columns[c] = table.column(names[c]);

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/motion/keyframes.hpp"
 #include "hmps/motion/pose.hpp"
@@ -36,12 +38,16 @@ struct Translation {
   }
 };
 
-/// Rotation about `axis` (of any length) through `pivot` by a track of angles in rad.
+/// Rotation about `axis` (of any length) through `pivot` by a track of angles in rad. Throws `InputError` for an axis
+/// that is zero or not finite.
 struct Turn {
   Vector<double, 3> pivot;
   Vector<double, 3> axis;
   Track angle;
   [[nodiscard]] Pose<double, 3> operator()(double t) const {
+    const double length = axis.norm();
+    detail::require(detail::is_finite(length) && length > 0, "hmps: a turn is about the axis (", axis.transpose(),
+                    "); give a direction of finite length");
     return {rotation<double>(Vector<double, 3>(angle.value(t) * axis.normalized())), pivot, Vector<double, 3>::Zero()};
   }
 };

@@ -27,7 +27,9 @@ struct VtkField {
   /// How many bytes a number takes.
   [[nodiscard]] std::size_t width() const { return type == "Float64" ? 8 : type == "UInt8" ? 1 : 4; }
   /// The number of particles.
-  [[nodiscard]] std::size_t size() const { return bytes.size() / (width() * static_cast<std::size_t>(components)); }
+  [[nodiscard]] std::size_t size() const {
+    return components > 0 ? bytes.size() / (width() * static_cast<std::size_t>(components)) : 0;
+  }
 };
 
 namespace detail {

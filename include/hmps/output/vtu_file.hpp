@@ -119,6 +119,10 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
     require(std::none_of(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(k),
                          [&](const VtkField& other) { return xml(other.name) == xml(field.name); }),
             "hmps: two fields of a VTU file are called ", xml(field.name), "; give each a name of its own");
+    require((field.components == 1 || field.components == 3 || field.components == 9) &&
+                (field.type == "Float32" || field.type == "Float64" || field.type == "Int32" || field.type == "UInt8"),
+            "hmps: the field ", field.name, " of a VTU file has ", field.components, " components of the type '",
+            field.type, "'; take what vtk_field makes");
     require(field.bytes.size() == size * field.width() * static_cast<std::size_t>(field.components), "hmps: the field ",
             field.name, " of a VTU file has ", field.size(), " particles but there are ", size,
             " positions; give both of the same particles");
@@ -175,11 +179,13 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
 ///               {.time = t, .names = {{"organ", {"tongue", "palate"}}}});
 ///
 /// Positions `x` in m, in two dimensions z is zero. The file is replaced whole: whoever reads it while it is written
-/// finds the old one. Throws `InputError` as `vtu_text` does, for a position that is not finite, and where the file
-/// cannot be written, with its name and the reason.
+/// finds the old one. Throws `InputError` as `vtu_text` does, for a position that is not finite, a name that does not
+/// end in .vtu, and where the file cannot be written, with its name and the reason.
 template <class T, int D>
 void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
                const VtuSettings& settings = {}) {
+  detail::require(path.extension() == ".vtu", "hmps: ", path.string(),
+                  " is to be a VTK file of the kind .vtu; give it that ending, by which ParaView knows it");
   require_finite(x, "the position");
   detail::replace_file(path, vtu_text(vtk_field("position", x), fields, settings));
 }
@@ -215,10 +221,14 @@ class VtuSeries {
     detail::replace_file(path_, pvd_text(frames_));
   }
 
-  /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection.
+  /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection. Throws `InputError` as that
+  /// does, and for a time that does not follow that of the frame before: ParaView would show one of the two.
   template <class T, int D>
   void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
            VtuSettings settings = {}) {
+    detail::require(frames_.empty() || time > frames_.back().first, "hmps: a frame of ", path_.string(), " at ", time,
+                    " s follows one at ", frames_.empty() ? 0.0 : frames_.back().first,
+                    " s; times must grow from frame to frame");
     settings.time = time;
     const std::string number = std::to_string(frames_.size());
     const std::string name =

@@ -9,10 +9,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -51,7 +53,8 @@ class CarriedSurface {
   /// @param points     places of the points in the reference configuration in m
   /// @param spacing    l0 in m
   /// @param belongs    `belongs(i)`: whether particle i is of the body that carries the points; all are by default
-  /// Throws `InputError` for a spacing that is not positive, positions that are not finite, no particles, and a point
+  /// Throws `InputError` for a spacing that is not positive or far above that of the particles, a set `belongs` of
+  /// another scene, positions that are not finite, no particles, and a point
   /// that lies further than 8 spacings from particles that span space, with its place.
   template <class T, class P, class Belongs = bool (*)(std::size_t), Executor E = Serial>
   CarriedSurface(
@@ -67,6 +70,9 @@ class CarriedSurface {
         detail::require(detail::is_finite(points(p, c)), "hmps: component ", c, " of the place of point ", p,
                         " of a carried surface is ", points(p, c), "; every component must be a finite number");
     const FixedRadiusSearch<T, D> search(reference);
+    using S = typename VectorView<T, D>::Scalar;
+    detail::require_plausible_spacing(search, {spacing, 2}, static_cast<S>(2 * spacing), false);
+    detail::require_scene(belongs, reference.size(), "that carry a surface");
     std::vector<std::vector<Share>> shares(points.size());
     execute(points.size(), [&](std::size_t p) {
       shares[p] = shares_of(search, points[p].template cast<double>(), spacing, belongs, p);

@@ -63,7 +63,7 @@ class PatchPressure {
   /// @param patch      see `surface_patch`; a whole surface too
   /// @param spacing    l0 in m
   /// @param belongs    `belongs(i)`: whether particle i is of the body; all are by default
-  /// Throws as `CarriedSurface` and `refine` do.
+  /// Throws as `CarriedSurface` and `refine` do, and `InputError` for a patch that faces the particles.
   template <class T, class S, class Belongs = bool (*)(std::size_t)>
   PatchPressure(
       const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch, double spacing,
@@ -113,7 +113,32 @@ class PatchPressure {
 
   template <class T, class S, class Belongs>
   PatchPressure(const VectorView<T, 3>& reference, const Refined<S>& fine, double spacing, const Belongs& belongs)
-      : carried_(reference, vectors(fine.mesh.vertices), spacing, belongs), triangles_(fine.mesh.triangles) {}
+      : carried_(reference, vectors(fine.mesh.vertices), spacing, belongs), triangles_(fine.mesh.triangles) {
+    require_outward(reference, fine.mesh, spacing);
+  }
+
+  /// Throws `InputError` if, on the whole, the particles lie on that side of the patch to which its normals point.
+  template <class T, class S>
+  void require_outward(const VectorView<T, 3>& reference, const SurfaceMesh<S>& mesh, double spacing) const {
+    double ahead = 0, whole = 0;
+    for (const auto& t : triangles_) {
+      V middle = V::Zero(), particles = V::Zero();
+      for (const Index k : t) {
+        middle += mesh.vertices[k].template cast<double>() / 3;
+        for (const auto& share : carried_.shares(k))
+          particles += share.mean / 3 * reference[share.particle].template cast<double>();
+      }
+      const V across =
+          area_vector(mesh.vertices[t[0]].template cast<double>(), mesh.vertices[t[1]].template cast<double>(),
+                      mesh.vertices[t[2]].template cast<double>());
+      ahead += across.dot(particles - middle);
+      whole += across.norm();
+    }
+    // On an outer surface they lie half a spacing and more behind it, on a middle surface neither ahead nor behind.
+    detail::require(ahead <= 0.2 * spacing * whole, "hmps: the normals of ", mesh.source,
+                    " point into the body, whose particles lie ", ahead / whole,
+                    " m ahead of it: a pressure would pull; swap two corners of each triangle");
+  }
 
   template <class X>
   [[nodiscard]] std::vector<V> corners(const VectorView<X, 3>& x) const {

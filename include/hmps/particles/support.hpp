@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
@@ -69,14 +70,17 @@ class Supports {
     using S = typename VectorView<T, D>::Scalar;
     // As in `BondList`: rounding must not decide whether a lattice neighbour is one.
     const double slack = 1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon());
-    list_ = find_neighbours(points, static_cast<S>(radius_ * slack));
+    const FixedRadiusSearch<T, D> search(points);
+    require_plausible_spacing(search, {settings.spacing, settings.radius_ratio}, static_cast<S>(radius_ * slack),
+                              false);
+    list_ = find_neighbours(search, static_cast<S>(radius_ * slack));
   }
 
   /// Calls `visit(j)` for each particle bonded to `i`.
   template <class Visit>
   void for_each(std::size_t i, Visit&& visit) const {
     for (const Index j : list_[i])
-      if (bonded_(i, static_cast<std::size_t>(j))) visit(static_cast<std::size_t>(j));
+      if (are_bonded(bonded_, i, static_cast<std::size_t>(j))) visit(static_cast<std::size_t>(j));
   }
 
   /// The support of `i` from those neighbours for which `present(j)` holds.
@@ -104,7 +108,8 @@ class Supports {
 
 /// Finds the weakly supported particles of the reference positions `points` (m), in order. Two particles are bonded if
 /// they lie within the effective radius and `bonded(i, j)` holds (symmetric). Throws `InputError` for settings out of
-/// range, positions that are not finite, and coincident particles.
+/// range, a spacing far above that of the particles, a predicate that is not symmetric, positions that are not finite,
+/// and coincident particles.
 template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 [[nodiscard]] std::vector<WeakParticle> find_weak(const VectorView<T, D>& points, const SupportSettings& settings,
                                                   const Bonded& bonded = {}, const E& execute = {}) {
@@ -133,6 +138,7 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
                                               const Keep& keep = {}, const Bonded& bonded = {}) {
   const detail::Supports<T, D, Bonded> supports(points, settings, bonded);
   const std::size_t n = points.size();
+  detail::require_scene(keep, n, "to be kept");
   std::vector<char> present(n, 1);
   const auto is_present = [&](std::size_t j) { return present[j] != 0; };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
@@ -77,7 +78,8 @@ template <int D>
 /// @param points   reference positions in m
 /// @param spacing  l0 in m
 /// @param bonded   `bonded(i, j)`: whether two particles belong to one body; symmetric
-/// Throws `InputError` for a spacing that is not positive, positions that are not finite, and coincident particles.
+/// Throws `InputError` for a spacing that is not positive or does not fit the particles, as in another unit, a
+/// predicate that is not symmetric, positions that are not finite, and coincident particles.
 template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 [[nodiscard]] SurfaceLayers surface_layers(const VectorView<T, D>& points, double spacing, const Bonded& bonded = {},
                                            const E& execute = {}) {
@@ -89,11 +91,14 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
   const double limit = std::cos(56 * std::numbers::pi / 180);
   // Between the neighbours across the diagonal of a cell, at 1.73, and the next ones, at 2.
-  const NeighbourList nearby = find_neighbours(points, static_cast<S>(1.8 * spacing), execute);
+  const FixedRadiusSearch<T, D> search(points);
+  detail::require_plausible_spacing(search, {spacing, 1.8}, static_cast<S>(1.8 * spacing));
+  const NeighbourList nearby = find_neighbours(search, static_cast<S>(1.8 * spacing), execute);
   const auto for_each = [&](std::size_t i, auto&& visit) {
     const Vector<double, D> here = points[i].template cast<double>();
     for (const Index j : nearby[i])
-      if (bonded(i, static_cast<std::size_t>(j))) visit(j, Vector<double, D>(points[j].template cast<double>() - here));
+      if (detail::are_bonded(bonded, i, static_cast<std::size_t>(j)))
+        visit(j, Vector<double, D>(points[j].template cast<double>() - here));
   };
   std::vector<char> layer(points.size(), 0);
   execute(points.size(), [&](std::size_t i) {

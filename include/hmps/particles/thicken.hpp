@@ -122,6 +122,8 @@ template <class T, int D, class Allowed = AllowEverywhere>
   detail::validate(settings);
   detail::require(settings.radius_ratio < 16, "hmps: the effective radius is ", settings.radius_ratio,
                   " spacings; on a lattice it must be below 16");
+  detail::require(passes >= 0, "hmps: particles are to be thickened in ", passes,
+                  " passes; give a positive number (4 is the default)");
   require_finite(points, "the position");
   std::vector<Vector<S, D>> added;
   if (points.size() == 0) return added;

@@ -117,7 +117,9 @@ class FixedRadiusSearch {
   FixedRadiusSearch& operator=(const FixedRadiusSearch&) = delete;
 
   /// Writes to `found` the particles within `radius` (m, closed ball) of `centre`, sorted by index. Thread-safe.
+  /// Throws `InputError` for a radius that is negative or NaN, and a centre that is not finite.
   void operator()(const Vector<Scalar, D>& centre, Scalar radius, std::vector<Index>& found) const {
+    require_ball(centre, radius);
     found.clear();
     if (points_.points.size() == 0) return;
     detail::WithinRadius<Scalar> within(radius * radius, found);
@@ -127,13 +129,17 @@ class FixedRadiusSearch {
 
   /// The number of particles within `radius` (m) of `centre`. Allocates no memory.
   [[nodiscard]] std::size_t count(const Vector<Scalar, D>& centre, Scalar radius) const {
+    require_ball(centre, radius);
     detail::CountWithin<Scalar> within(radius * radius);
     if (points_.points.size() > 0) tree_.findNeighbors(within, centre.data(), {});
     return within.size();
   }
 
-  /// Distance (m) from `particle` to its nearest neighbour; infinite if there is none.
+  /// Distance (m) from `particle` to its nearest neighbour; infinite if there is none. Throws `InputError` for a
+  /// particle that is not there.
   [[nodiscard]] Scalar nearest(std::size_t particle) const {
+    detail::require(particle < points_.points.size(), "hmps: the nearest neighbour of particle ", particle,
+                    " is asked for, but there are only ", points_.points.size(), " particles");
     if (points_.points.size() < 2) return std::numeric_limits<Scalar>::infinity();
     Index index[2];
     Scalar squared[2];
@@ -146,6 +152,12 @@ class FixedRadiusSearch {
   [[nodiscard]] const VectorView<T, D>& points() const { return points_.points; }
 
  private:
+  static void require_ball(const Vector<Scalar, D>& centre, Scalar radius) {
+    detail::require(!detail::is_nan(radius) && radius >= 0, "hmps: the search radius is ", radius,
+                    " m; it must not be negative");
+    detail::require(detail::all_finite(centre), "hmps: a search is centred at (", centre.transpose(),
+                    "); give finite metres");
+  }
   static const Points& checked(const Points& set) {
     require_finite(set.points, "the position");
     return set;

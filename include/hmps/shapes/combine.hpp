@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
@@ -49,9 +51,10 @@ template <class A, class B, class... More>
     return unite(unite(std::move(a), std::move(b)), std::move(more)...);
 }
 
-/// Union of a list of shapes of one type, such as `Ball`. The list must not be empty.
+/// Union of a list of shapes of one type, such as `Ball`. Throws `InputError` for an empty list.
 template <class A>
 [[nodiscard]] auto unite_all(std::vector<A> shapes) {
+  detail::require(!shapes.empty(), "hmps: a union is to be made of no shapes; give at least one");
   return detail::Combined{[shapes = std::move(shapes)](const auto& x) {
     auto least = shapes.front()(x);
     for (std::size_t k = 1; k < shapes.size(); ++k) least = std::min(least, shapes[k](x));
@@ -93,9 +96,11 @@ template <class A, class S>
 }
 
 /// The points whose signed distance to the shape lies between `from` and `to` metres: `layer(a, 0, t)` is a wall of
-/// thickness t outside a, `layer(a, -t, 0)` one inside.
+/// thickness t outside a, `layer(a, -t, 0)` one inside. Throws `InputError` if `from` is above `to`.
 template <class A, class S>
 [[nodiscard]] auto layer(A a, S from, S to) {
+  detail::require(!detail::is_nan(from) && !detail::is_nan(to) && from <= to, "hmps: a layer reaches from ", from,
+                  " to ", to, " m from its shape; give the smaller distance first, and a shell a positive thickness");
   return detail::Combined{[a = std::move(a), from, to](const auto& x) {
     using Scalar = typename std::decay_t<decltype(x)>::Scalar;
     const Scalar d = a(x);
@@ -103,16 +108,19 @@ template <class A, class S>
   }};
 }
 
-/// A sheet of the given thickness with the surface of `a` as its middle surface.
+/// A sheet of the given thickness with the surface of `a` as its middle surface. Throws `InputError` for a negative
+/// one.
 template <class A, class S>
 [[nodiscard]] auto shell(A a, S thickness) {
   return layer(std::move(a), -thickness / 2, thickness / 2);
 }
 
 /// Union with a fillet: adds material where the two distances differ by less than `radius`, at most radius / 4. Smooth,
-/// but not an exact distance near the fillet.
+/// but not an exact distance near the fillet. Throws `InputError` for a radius that is negative or not finite.
 template <class A, class B, class S>
 [[nodiscard]] auto smooth_unite(A a, B b, S radius) {
+  detail::require(detail::is_finite(radius) && radius >= 0, "hmps: the radius of a fillet is ", radius,
+                  " m; give a positive number of metres, or 0 for a sharp edge");
   return detail::Combined{[a = std::move(a), b = std::move(b), radius](const auto& x) {
     using Scalar = typename std::decay_t<decltype(x)>::Scalar;
     return detail::smooth_min<Scalar>(a(x), b(x), static_cast<Scalar>(radius));
@@ -138,9 +146,14 @@ template <class A, class S, int D>
 }
 
 /// The shape turned by the rotation matrix `rotation` about the point `pivot`. Exact if the shape
-/// is and `rotation` is orthogonal.
+/// is. Throws `InputError` for a matrix that is not orthogonal: use `warped` to scale or shear.
 template <class A, class S, int D>
 [[nodiscard]] auto rotated(A a, const Matrix<S, D>& rotation, const Vector<S, D>& pivot) {
+  const Matrix<S, D> excess = rotation * rotation.transpose() - Matrix<S, D>::Identity();
+  detail::require(detail::all_finite(excess) && excess.norm() < S(1e-3),
+                  "hmps: a shape is rotated by the matrix (by "
+                  "columns) ",
+                  rotation, ", which is not orthogonal; give a rotation, or use warped");
   return detail::Combined{[a = std::move(a), rotation, pivot](const auto& x) {
     return a(Vector<S, D>(pivot + rotation.transpose() * (x - pivot)));
   }};
@@ -153,8 +166,11 @@ template <class A, class S, int D>
 }
 
 /// The half of a shape where coordinate `axis` exceeds `at`, and its mirror image: describes left and right at once.
+/// `axis` is 0, 1 or, in three dimensions, 2; throws `InputError` for others.
 template <class A, class S = double>
 [[nodiscard]] auto mirrored(A a, int axis, S at = S(0)) {
+  detail::require(axis >= 0 && axis <= 2, "hmps: a shape is mirrored along the axis ", axis,
+                  "; give 0, 1 or 2 for x, y or z");
   return detail::Combined{[a = std::move(a), axis, at](const auto& x) {
     using Scalar = typename std::decay_t<decltype(x)>::Scalar;
     auto folded = x;

@@ -52,9 +52,23 @@ template <class S>
   return (b - a).cross(c - a) / 2;
 }
 
-/// The enclosed volume (m3) of a closed surface; positive if triangles are counter-clockwise seen from outside.
+namespace detail {
+
+/// Throws `InputError` if triangle `k` names a vertex that is not there.
+template <class S>
+void require_corners(const SurfaceMesh<S>& mesh, std::size_t k) {
+  for (const Index corner : mesh.triangles[k])
+    require(corner < mesh.vertices.size(), "hmps: triangle ", k, " of ", mesh.source, " names vertex ", corner,
+            " but there are only ", mesh.vertices.size(), "; check the file");
+}
+
+}  // namespace detail
+
+/// The enclosed volume (m3) of a closed surface; positive if triangles are counter-clockwise seen from outside. Throws
+/// `InputError` for a triangle that names a vertex that is not there.
 template <class S>
 [[nodiscard]] double volume(const SurfaceMesh<S>& mesh) {
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) detail::require_corners(mesh, k);
   if (mesh.vertices.empty()) return 0;
   // Relative to a vertex, because the origin may be metres away.
   const Vector<double, 3> base = mesh.vertices.front().template cast<double>();
@@ -120,9 +134,8 @@ void require_triangles(const SurfaceMesh<S>& mesh) {
   require(!mesh.triangles.empty(), "hmps: ", mesh.source, " has no triangles; check that the file holds a surface");
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& t = mesh.triangles[k];
+    require_corners(mesh, k);
     for (std::size_t c = 0; c < 3; ++c) {
-      require(t[c] < mesh.vertices.size(), "hmps: triangle ", k, " of ", mesh.source, " names vertex ", t[c],
-              " but there are only ", mesh.vertices.size(), "; check the file");
       require(t[c] != t[(c + 1) % 3], "hmps: triangle ", k, " of ", mesh.source, " names vertex ", t[c],
               " twice; weld the surface first");
     }
@@ -225,14 +238,22 @@ namespace detail {
 }  // namespace detail
 
 /// Whether `x` lies inside the closed surface, by its winding number (sum of solid angles). Linear in the number of
-/// triangles; `fill_lattice` is much faster for a lattice.
+/// triangles; `fill_lattice` is much faster for a lattice. Throws `InputError` for a surface without triangles or with
+/// one that names a vertex that is not there, and a place that is not finite.
 template <class S>
 [[nodiscard]] bool inside(const SurfaceMesh<S>& mesh, const Vector<S, 3>& x) {
+  detail::require(!mesh.triangles.empty(), "hmps: ", mesh.source,
+                  " has no triangles; check that the file holds a surface");
+  detail::require(detail::all_finite(x), "hmps: whether (", x.transpose(), ") is inside ", mesh.source,
+                  " is asked; give finite metres");
   double angle = 0;
-  for (const auto& t : mesh.triangles)
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    detail::require_corners(mesh, k);
+    const auto& t = mesh.triangles[k];
     angle += detail::solid_angle((mesh.vertices[t[0]] - x).template cast<double>(),
                                  (mesh.vertices[t[1]] - x).template cast<double>(),
                                  (mesh.vertices[t[2]] - x).template cast<double>());
+  }
   return std::abs(angle) > 2 * std::numbers::pi;
 }
 

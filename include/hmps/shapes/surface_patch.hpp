@@ -18,14 +18,18 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The area of a surface, or of a patch of one, in m2.
+/// The area of a surface, or of a patch of one, in m2. Throws `InputError` for a triangle that names a vertex that is
+/// not there.
 template <class S>
 [[nodiscard]] double area(const SurfaceMesh<S>& mesh) {
   double sum = 0;
-  for (const auto& t : mesh.triangles)
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    detail::require_corners(mesh, k);
+    const auto& t = mesh.triangles[k];
     sum += area_vector(mesh.vertices[t[0]].template cast<double>(), mesh.vertices[t[1]].template cast<double>(),
                        mesh.vertices[t[2]].template cast<double>())
                .norm();
+  }
   return sum;
 }
 
@@ -36,10 +40,16 @@ template <class S>
 ///     const auto spot = surface_patch(mesh, [&](const auto& at, const auto& n) { return ball(at) < 0; });
 ///
 /// Triangles are taken whole: where they are large beside the patch, `refine` the surface first. Triangles without area
-/// are left out. Throws `InputError` where no triangle is chosen, and for a broken surface.
+/// are left out. Throws `InputError` where no triangle is chosen, for a broken surface, and for a closed one that is
+/// inside out, whose normals point inwards.
 template <class S, class Holds>
 [[nodiscard]] SurfaceMesh<S> surface_patch(const SurfaceMesh<S>& mesh, const Holds& holds) {
   detail::require_triangles(mesh);
+  const detail::EdgeFaults<S> faults(mesh);
+  detail::require(faults.open.count + faults.crowded.count + faults.turned.count > 0 || !(volume(mesh) < 0),
+                  "hmps: ", mesh.source, " is closed and inside out: its volume is ", volume(mesh),
+                  " m3, and its normals point inwards; flip its normals in a mesh editor, or swap two corners of each "
+                  "triangle");
   SurfaceMesh<S> patch;
   patch.source = "a patch of " + mesh.source;
   constexpr Index none = static_cast<Index>(-1);

@@ -47,10 +47,17 @@ struct Artificial {
 
   /// Throws `InputError` if the modulus is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(modulus, size, "moduli of the artificial force"); }
+  /// Throws `InputError` for a modulus that is negative or not finite.
+  template <class K, int D>
+  requires(!std::is_arithmetic_v<Modulus>) void check_parameters(const BlockOfParticles<K, D>& particles) const {
+    detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(modulus, particles)),
+                                 "modulus of the artificial force", "Pa");
+  }
 };
 
 /// Kondo's stabiliser with E_hat = `modulus` in Pa (in the paper Young's modulus by \paper{18}): a number, a view or a
-/// callable. Throws `InputError` for a number that is negative or not finite.
+/// callable. Throws `InputError` for a number that is negative or not finite; of views and callables `internal_force`
+/// does, for the values that they have then.
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
   if constexpr (std::is_arithmetic_v<Modulus>)

@@ -5,12 +5,48 @@
 #include <utility>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/laws/law.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
+
+namespace detail {
+
+template <class Law>
+concept ValidatesItself = requires(const Law& law) {
+  law.validate();
+};
+
+/// Throws `InputError` if the stress `P` (Pa) at the small deformation `F` is not finite, or Kirchhoff's stress P F^T
+/// not symmetric.
+template <class K, int D>
+HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Matrix<Lanes<K>, D>& P,
+                              const Matrix<Lanes<K>, D>& F) {
+  constexpr double most = 0.05;  // far above rounding and what a law for small strain leaves, some thousandths
+  for (int l = 0; l < Lanes<K>::width; ++l) {
+    const Index i = particles.particle(l);
+    if (i == Blocks<K, D>::none) continue;
+    Matrix<double, D> stress, gradient;
+    for (int k = 0; k < D * D; ++k) {
+      stress(k % D, k / D) = static_cast<double>(P(k % D, k / D).lane[l]);
+      gradient(k % D, k / D) = static_cast<double>(F(k % D, k / D).lane[l]);
+    }
+    require(all_finite(stress), "hmps: the law of particle ", i,
+            " gives a stress that is not finite at a strain of a thousandth: P is (by columns) ", stress,
+            " Pa; check its parameters and formula");
+    const Matrix<double, D> kirchhoff = stress * gradient.transpose();
+    require((kirchhoff - kirchhoff.transpose()).norm() <= most * kirchhoff.norm(), "hmps: the law of particle ", i,
+            " gives a stress that turns the particle: P F^T is (by columns) ", kirchhoff,
+            " Pa, and must be symmetric; is S symmetric, or is P returned for S, or transposed?");
+  }
+}
+
+}  // namespace detail
 
 /// The elastic force of the Hamiltonian MPS method, \paper{13}: the gradient of the strain energy
 /// (\paper{5, 6}) with respect to the particles, M += F S A^-1 (see `Coupling`).
@@ -31,6 +67,21 @@ struct Elastic {
     for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pull(k % D, k / D);
   }
 
+  /// Throws `InputError` for a law of each particle with a bulk or shear modulus that is not positive, and for a law of
+  /// your own whose stress at a small strain is not finite, or that turns the particle: Kirchhoff's stress P F^T is not
+  /// symmetric. Laws that validate themselves were checked when the term was made.
+  template <class K, int D>
+  requires(!detail::ValidatesItself<Law>) void check_parameters(const BlockOfParticles<K, D>& particles) const {
+    const auto& own = detail::value_at(law, particles);
+    if constexpr (requires { Lanes<K>(own.bulk_modulus() + own.shear_modulus()); }) {
+      detail::require_values<K, D>(particles, Lanes<K>(own.shear_modulus()), "shear modulus of the law", "Pa", true);
+      detail::require_values<K, D>(particles, Lanes<K>(own.bulk_modulus()), "bulk modulus of the law", "Pa", true);
+    } else {
+      const Matrix<Lanes<K>, D>& F = particles.deformation_gradient;
+      detail::require_stress<K, D>(particles, first_piola_kirchhoff(own, F), F);
+    }
+  }
+
   /// Fails, with the name of the law, where it does not serve the scalar and the dimension of the bonds.
   template <class K, int D>
   static constexpr bool serves() {
@@ -47,7 +98,7 @@ struct Elastic {
 };
 
 /// The elastic force of a body made of `law`, \paper{13}, as a term of `internal_force`. Throws `InputError` for a law
-/// with moduli that are not positive, if the law validates itself.
+/// with moduli that are not positive, if the law validates itself; `internal_force` checks others when it is made.
 template <class Law>
 [[nodiscard]] Elastic<Law> elastic(Law law) {
   if constexpr (requires { law.validate(); }) law.validate();

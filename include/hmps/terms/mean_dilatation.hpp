@@ -65,6 +65,12 @@ struct MeanDilatation {
 
   /// Throws `InputError` if the bulk modulus is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(bulk, size, "bulk moduli of mean_dilatation"); }
+  /// Throws `InputError` for a bulk modulus that is negative or not finite.
+  template <class K, int D>
+  requires(!std::is_arithmetic_v<Bulk>) void check_parameters(const BlockOfParticles<K, D>& particles) const {
+    detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(bulk, particles)),
+                                 "bulk modulus of mean_dilatation", "Pa");
+  }
 };
 
 /// A bulk modulus in Pa, divided between the law of the particles and `mean_dilatation`.
@@ -75,7 +81,8 @@ struct SplitBulkModulus {
 
 /// Gives the law twice `shear_modulus` (Pa), i.e. Poisson's ratio 0.29, and the rest of `bulk_modulus` (Pa) to the mean
 /// dilatation. With more in the law, sheets of two particles are too stiff; with less, those of three and more are too
-/// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive.
+/// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive, and for a bulk modulus
+/// below 2/3 of the shear modulus, with which Poisson's ratio would be negative, as where the two are interchanged.
 template <class P>
 [[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
   detail::require(detail::is_finite(bulk_modulus) && bulk_modulus > 0, "hmps: the bulk modulus to be split is ",
@@ -83,14 +90,18 @@ template <class P>
   detail::require(detail::is_finite(shear_modulus) && shear_modulus > 0,
                   "hmps: the shear modulus beside the bulk modulus to be split is ", shear_modulus,
                   " Pa; it must be positive");
+  // A ratio of zero itself may come out of rounding.
+  detail::require(P(3) * bulk_modulus >= P(2) * shear_modulus * (P(1) - P(16) * std::numeric_limits<P>::epsilon()),
+                  "hmps: the bulk modulus to be split is ", bulk_modulus, " Pa beside a shear modulus of ",
+                  shear_modulus, " Pa, so that Poisson's ratio is negative; give the bulk modulus first");
   const P law = std::min(bulk_modulus, 2 * shear_modulus);
   return {law, bulk_modulus - law};
 }
 
 /// The mean dilatation as a term of `internal_force`, with the bulk modulus `bulk` in Pa: a number, a view or a
-/// callable. Throws `InputError` for a number that is negative or not finite. `mean_dilatation<2>(bulk)` takes the mean
-/// twice, which costs two more sweeps with one number per bond. All terms of the mean dilatation in a force must take
-/// it equally often.
+/// callable. Throws `InputError` for a number that is negative or not finite; of views and callables `internal_force`
+/// does, for the values that they have then. `mean_dilatation<2>(bulk)` takes the mean twice, which costs two more
+/// sweeps with one number per bond. All terms of the mean dilatation in a force must take it equally often.
 template <int Means = 1, class Bulk>
 [[nodiscard]] MeanDilatation<Bulk, Means> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -186,15 +187,30 @@ concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& 
 };
 
 /// A term of `internal_force`: models one or more of the concepts above. A term that holds views of particles also has
-/// `term.check(size)`, which throws `InputError` unless they have `size` particles; `internal_force` calls it in the
-/// constructor. For `InternalForce::energy`, a `PairTerm` has `term.energy(bond)`, other terms `term.energy(particle)`:
-/// see `ForceEnergy`. Models: the results of `elastic`, `artificial`, `viscous`, `mean_dilatation`, `gravity` and
-/// `record`; a struct of your own.
+/// `term.check(size)`, which throws `InputError` unless they have `size` particles, and it may have
+/// `term.check_parameters(particles)`, of a `BlockOfParticles` that is hardly deformed, which throws for bad values;
+/// `internal_force` calls both in the constructor. For `InternalForce::energy`, a `PairTerm` has `term.energy(bond)`,
+/// other terms `term.energy(particle)`: see `ForceEnergy`. Models: the results of `elastic`, `artificial`, `viscous`,
+/// `mean_dilatation`, `gravity` and `record`; a struct of your own.
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||
     DilatationTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;
 
 namespace detail {
+
+/// Throws `InputError` unless the quantity `name` with the values `own` (in `unit`) is finite and not negative, or if
+/// it `must_be_positive` positive, at the particles of the block.
+template <class K, int D>
+HMPS_COLD void require_values(const BlockParameters<K, D>& particles, const Lanes<K>& own, const char* name,
+                              const char* unit, bool must_be_positive = false) {
+  for (int l = 0; l < Lanes<K>::width; ++l) {
+    const Index i = particles.particle(l);
+    const K value = own.lane[l];
+    require(i == Blocks<K, D>::none || (is_finite(value) && (must_be_positive ? value > K(0) : value >= K(0))),
+            "hmps: the ", name, " of particle ", i, " is ", value, " ", unit, "; it must be finite and ",
+            must_be_positive ? "positive" : "not negative", " when the force is made: fill the parameters before");
+  }
+}
 
 /// How often a term takes the mean of the dilatation: 0 if it takes none.
 template <class Term, class K, int D>

@@ -48,6 +48,13 @@ struct ViscousOfEach {
     detail::require_quantity(density, size, "densities of the viscous force");
     detail::require_quantity(viscosity, size, "viscosities");
   }
+  /// Throws `InputError` for a density or a viscosity that is negative or not finite.
+  template <class K, int D>
+  void check_parameters(const BlockOfParticles<K, D>& particles) const {
+    detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(density, particles)),
+                                 "density of the viscous force", "kg/m3");
+    detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(viscosity, particles)), "viscosity", "m2/s");
+  }
 };
 
 namespace detail {
@@ -69,8 +76,8 @@ void require_viscous(const Rho& density, const Nu& viscosity) {
   detail::require_viscous(density, viscosity);
   return {density, viscosity};
 }
-/// The same with views or callables for one or both. Their values are read at each evaluation and not checked;
-/// numbers are.
+/// The same with views or callables for one or both. Their values are read at each evaluation, and checked when
+/// `internal_force` is made, to be finite and not negative.
 template <PerParticle Rho, PerParticle Nu>
 requires(!std::is_arithmetic_v<Rho> || !std::is_arithmetic_v<Nu>)
     [[nodiscard]] ViscousOfEach<Rho, Nu> viscous(Rho density, Nu viscosity) {

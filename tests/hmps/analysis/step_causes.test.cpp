@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -121,6 +123,24 @@ TEST(StepCauses, BadInputIsRefusedAndNoLimitHasNoCause) {
   EXPECT_TRUE(
       step_causes(free, vectors(cube.reference), vectors(cube.v), density, settings, NamedForce{"nothing", nothing})
           .empty());
+}
+
+TEST(StepCausesMisuse, IsRefused) {
+  const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Ones()), v(2, Vector<double, 3>::Zero());
+  const auto spring = [](const auto& at, const auto&, const auto& f) {
+    for (std::size_t i = 0; i < f.size(); ++i) f.set(i, Vector<double, 3>(-1e6 * at[i]));
+  };
+  StableStep found = stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3});
+  EXPECT_NEAR(found.limit, 2 / std::sqrt(1e3), 1e-6);
+  // Trial displacements that vanish in the rounding of the positions.
+  EXPECT_THROW((void)stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-12}), InputError);
+  found.mode.assign(6, 0.0);
+  const NamedForce part{"spring", spring};
+  EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, part), InputError);
+  found.mode[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, part), InputError);
+  EXPECT_THROW((void)stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3, .start = found.mode}),
+               InputError);
 }
 
 }  // namespace step_causes_test

@@ -523,8 +523,16 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
   const auto lid = made.contact.add_organ({.name = "lid", .slaves = top, .masters = pile.plate.bottom});
   const auto other = made.contact.add_organ({.name = "other", .slaves = bottom, .masters = lower});
   EXPECT_NO_THROW(made.contact.add_pair(lid, other, second));
-  EXPECT_NO_THROW(
-      made.contact.add_pair(made.plate, skin, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom}));
+  std::vector<Index> both_faces(bottom);
+  both_faces.insert(both_faces.end(), top.begin(), top.end());
+  const auto faces = made.contact.add_organ({.name = "faces", .slaves = both_faces, .masters = {}});
+  EXPECT_NO_THROW(made.contact.add_pair(made.plate, faces,
+                                        {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom}));
+  EXPECT_FALSE(message_of([&] {
+                 made.contact.add_pair(made.plate, skin,
+                                       {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom});
+               }).empty())
+      << "nothing could touch";
   const auto rest = made.contact.add_organ({.name = "rest", .slaves = bottom, .masters = {}});
   EXPECT_NO_THROW(made.contact.add_pair(
       made.plate, rest, {.roles = hmps::Roles::only_second_is_slave, .excluded = [](Index, Index) { return true; }}));

@@ -106,4 +106,20 @@ TEST(NormalDensity, RefusesBadSpacing) {
   EXPECT_THROW(static_cast<void>(Z(std::numeric_limits<double>::quiet_NaN())), hmps::InputError);
 }
 
+struct NoKernel {
+  static constexpr double radius = 2;
+  template <class S>
+  [[nodiscard]] static constexpr S value(S) {
+    return std::numeric_limits<S>::quiet_NaN();
+  }
+  template <class S>
+  [[nodiscard]] static constexpr S slope(S) {
+    return S(0);
+  }
+};
+
+TEST(NormalDensity, RefusesAKernelThatFormsNoWall) {
+  EXPECT_THROW((void)(hmps::NormalDensity<double, 3, NoKernel>(1e-3)), hmps::InputError);
+}
+
 }  // namespace normal_density_test

@@ -124,4 +124,16 @@ TEST(SurfaceCorrection, SaysWhatIsWrong) {
       << "no direction";
 }
 
+TEST(SurfaceCorrection, RefusesAShapeThatIsInsideOut) {
+  using V = hmps::Vector<double, 3>;
+  const std::vector<V> points{V(0, 0, -0.5), V(1, 0, -0.5)};
+  const std::vector<Index> skin{0, 1};
+  using Correction = hmps::SurfaceCorrection<double, 3>;
+  EXPECT_NO_THROW(Correction(
+      hmps::vectors(points), skin, [](const V& x) { return x[2]; }, 1.0));
+  EXPECT_THROW(Correction(
+                   hmps::vectors(points), skin, [](const V& x) { return -x[2]; }, 1.0),
+               hmps::InputError);
+}
+
 }  // namespace surface_correction_test

@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,20 @@ TEST(ParticleSet, RefusesWhatIsNoParticleOrGivenTwice) {
   EXPECT_NE(text({1, 4}).find("particle 4 but there are only 4"), std::string::npos);
   EXPECT_NE(text({2, 1, 2}).find("particle 2 twice"), std::string::npos);
   EXPECT_EQ(text({3, 0}), "");
+}
+
+// Of another scene, a set would hold still, or let go, all particles beyond its own.
+TEST(ParticleSet, OfAnotherSceneIsRefusedAlsoWithinAFunction) {
+  const ParticleSet set(5, [](std::size_t) { return true; });
+  EXPECT_THROW(hmps::detail::require_scene(set, 6, "that move"), hmps::InputError);
+  EXPECT_NO_THROW(hmps::detail::require_scene(set, 5, "that move"));
+  EXPECT_NO_THROW(hmps::detail::require_scene([](std::size_t) { return true; }, 6, "that move"));
+  const std::function<bool(std::size_t)> held = set, none;
+  EXPECT_NO_THROW(hmps::detail::require_scene(held, 5, "that move"));
+  EXPECT_NO_THROW(hmps::detail::require_scene(none, 6, "that move"));
+#ifdef __cpp_rtti
+  EXPECT_THROW(hmps::detail::require_scene(held, 6, "that move"), hmps::InputError);
+#endif
 }
 
 }  // namespace particle_set_test

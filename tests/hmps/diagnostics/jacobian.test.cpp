@@ -62,4 +62,13 @@ TEST(Jacobian, StatisticsOfNobodyAreRefused) {
   EXPECT_THROW((void)jacobian_statistics(matrices(empty)), InputError);
 }
 
+TEST(JacobianStatisticsMisuse, IsRefused) {
+  const std::vector<Matrix<double, 3>> F(4, Matrix<double, 3>::Identity());
+  EXPECT_THROW((void)jacobian_statistics(matrices(F), {.low = 1.02, .high = 0.98}), InputError);
+  const ParticleSet other(3, [](std::size_t) { return true; });
+  EXPECT_THROW((void)jacobian_statistics(matrices(F), {}, other), InputError);
+  const MatrixView<const double, 3> nowhere(View<const double, 9>({}, 4, 72));
+  EXPECT_THROW((void)jacobian_statistics(nowhere), InputError);
+}
+
 }  // namespace jacobian_test

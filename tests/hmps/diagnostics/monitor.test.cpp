@@ -113,4 +113,10 @@ TEST(Monitor, ViewsOfDifferentSizesAreRefused) {
   EXPECT_THROW(check_state(vectors(x), vectors(x), matrices(F), {}), InputError);
 }
 
+TEST(CheckState, RefusesANegativeSpeedLimit) {
+  const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
+  EXPECT_THROW(check_state(vectors(x), vectors(x), {.speed_limit = -1}), InputError);
+  EXPECT_NO_THROW(check_state(vectors(x), vectors(x), {.speed_limit = 1}));
+}
+
 }  // namespace monitor_test

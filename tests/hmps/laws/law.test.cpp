@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "law_checks.hpp"
 
 namespace law_test {
@@ -85,6 +87,11 @@ TEST(Law, SoundSpeedOfUniaxialStrain) {
   EXPECT_DOUBLE_EQ(sound_speed(UsersLaw{3000, 3000}, 1000.0), 3.0);
   EXPECT_THROW((void)sound_speed(UsersLaw{3000, 3000}, 0.0), InputError);
   EXPECT_THROW((void)sound_speed(UsersLaw{3000, 3000}, -1.0f), InputError);
+}
+
+TEST(SoundSpeed, IsRefusedForALawWithout) {
+  EXPECT_THROW((void)sound_speed(UsersLaw{-3000, 100}, 1000.0), InputError);
+  EXPECT_THROW((void)sound_speed(UsersLaw{std::numeric_limits<double>::quiet_NaN(), 100}, 1000.0), InputError);
 }
 
 }  // namespace law_test

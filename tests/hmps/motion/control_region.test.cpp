@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace control_region_test {
@@ -163,6 +164,23 @@ TYPED_TEST(ControlRegionTest, NamesWhatIsWrong) {
   }
   this->at_rest[3][0] = std::numeric_limits<S>::infinity();
   EXPECT_THROW((ControlRegion<S, D>({3}, reference, motion)), hmps::InputError);
+}
+
+TEST(ControlRegionMisuse, IsRefused) {
+  using V = Vector<double, 3>;
+  std::vector<V> X(3, V::Zero()), x = X, v = X;
+  const auto reference = hmps::vectors(std::as_const(X));
+  const auto lost = [](double t) {
+    hmps::Pose<double, 3> pose;
+    pose.translation[0] = t > 0 ? NAN : 0;
+    return pose;
+  };
+  const ControlRegion<double, 3> region({1}, reference, lost);
+  EXPECT_THROW(region.place(hmps::vectors(x), hmps::vectors(v), 1), hmps::StateError);
+  EXPECT_THROW(region.place(hmps::vectors(x), hmps::vectors(v), NAN), hmps::InputError);
+  EXPECT_THROW(region.prescribe(hmps::vectors(x), hmps::vectors(v), -1, 1e-3, -5.0), hmps::InputError);
+  EXPECT_EQ(x, X);
+  EXPECT_THROW((ControlRegion<double, 3>({1}, reference, nullptr)), hmps::InputError);
 }
 
 }  // namespace control_region_test

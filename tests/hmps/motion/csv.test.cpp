@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -83,6 +84,12 @@ TEST(Csv, MakesKeyframesInMetres) {
   expect_contains(message_of([&] { (void)hmps::track(disorder, "x"); }),
                   "hyoid.csv, line 4: the time 0 s does not follow 0 s");
   expect_contains(message_of([&] { (void)hmps::track(hmps::parse_csv("t,x\n", "hyoid.csv"), "x"); }), "no row");
+}
+
+TEST(KeyframesOfATable, RefuseAScaleOfZero) {
+  const hmps::Table table = hmps::parse_csv("t,x\n0,1\n1,2\n");
+  for (const double scale : {0.0, static_cast<double>(NAN)})
+    expect_contains(message_of([&] { (void)hmps::track(table, "x", scale); }), "scaled by");
 }
 
 }  // namespace csv_test

@@ -63,4 +63,10 @@ TEST(RigidMotion, CarriedRegionsMoveWithinTheirCarrier) {
   EXPECT_LE((soft(1)(V(1, 0, 0)) - V(0, 2, 0)).norm(), 1e-15);
 }
 
+TEST(Turn, RefusesAnAxisWithoutDirection) {
+  const Track angle{{.time = 0, .value = 0}, {.time = 1, .value = 1}};
+  EXPECT_THROW((void)(hmps::Turn{V::Zero(), V::Zero(), angle}(1.0)), hmps::InputError);
+  EXPECT_THROW((void)(hmps::Turn{V::Zero(), V(NAN, 0, 1), angle}(1.0)), hmps::InputError);
+}
+
 }  // namespace rigid_motion_test

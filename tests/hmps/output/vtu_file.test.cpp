@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "../../reference/temporary_folder.hpp"
 #include "hmps/core/text_file.hpp"
@@ -98,6 +100,23 @@ TEST(VtuFile, VtkReadsItBack) {
   write_vtu(folder.path() / "empty.vtu", vectors(none));
   const auto script = std::filesystem::path(__FILE__).parent_path() / "read_vtu.py";
   EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
+}
+
+TEST(VtuFileMisuse, IsRefused) {
+  const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.vtu";
+  EXPECT_THROW(write_vtu(folder.path() / "a.vtk", vectors(x)), InputError);
+  EXPECT_THROW(write_vtu(folder.path(), vectors(x)), InputError);
+  EXPECT_EQ((VtkField{"a", 0, "Float32", ""}.size()), 0U);
+  for (const VtkField& field : {VtkField{"a", 0, "Float32", ""}, VtkField{"a", -1, "Float32", ""},
+                                VtkField{"a", 1, "Float16", std::string(8, 'a')}})
+    EXPECT_THROW(write_vtu(path, vectors(x), {field}), InputError) << field.components;
+  VtuSeries frames(folder.path() / "run.pvd");
+  frames.add(1, vectors(x));
+  EXPECT_THROW(frames.add(1, vectors(x)), InputError);
+  EXPECT_THROW(frames.add(0.5, vectors(x)), InputError);
+  EXPECT_EQ(frames.frames().size(), 1U);
 }
 
 }  // namespace vtu_file_test

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "hmps/particles/surface_lattice.hpp"
@@ -115,6 +116,19 @@ TEST(PatchPressure, RefusesWhatDoesNotFit) {
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, 0.0), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), std::numeric_limits<double>::infinity(), particle),
                InputError);
+}
+
+// A pressure on it would pull.
+TEST(PatchPressure, OnAPatchThatFacesTheBodyIsRefused) {
+  const double a = 6e-3;
+  SurfaceMesh<double> patch;
+  patch.vertices = {V(0, 0, a), V(a, 0, a), V(a, a, a), V(0, a, a)};
+  patch.triangles = {{0, 1, 2}, {0, 2, 3}};
+  std::vector<V> points;
+  for (int i = 0; i < 27; ++i) points.emplace_back(V(i % 3, i / 3 % 3, i / 9) * l0 + V::Constant(l0 / 2));
+  EXPECT_NO_THROW(PatchPressure(vectors(points), patch, l0));
+  for (auto& t : patch.triangles) std::swap(t[1], t[2]);
+  EXPECT_THROW(PatchPressure(vectors(points), patch, l0), InputError);
 }
 
 }  // namespace patch_pressure_test

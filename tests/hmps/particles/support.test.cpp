@@ -197,4 +197,12 @@ TYPED_TEST(Support, RefusesSettingsThatMakeNoSense) {
   EXPECT_THROW((void)hmps::find_weak(hmps::vectors(points), {.spacing = F::l0}), hmps::InputError);
 }
 
+TEST(SupportMisuse, IsRefused) {
+  std::vector<Vector<double, 3>> points;
+  for (int i = 0; i < 1000; ++i) points.emplace_back(i % 10, i / 10 % 10, i / 100);
+  EXPECT_THROW((void)hmps::find_weak(hmps::vectors(points), {.spacing = 1e3}), hmps::InputError);
+  const hmps::ParticleSet other(3, [](std::size_t) { return true; });
+  EXPECT_THROW((void)hmps::supported_particles(hmps::vectors(points), {.spacing = 1}, other), hmps::InputError);
+}
+
 }  // namespace support_test

@@ -139,4 +139,13 @@ TEST(SurfaceLayers, RefusesSpacingsThatMakeNoSense) {
   EXPECT_TRUE(hmps::surface_layers(hmps::vectors(none), 1.0).outermost.empty());
 }
 
+TEST(SurfaceLayers, RefuseAnotherUnitAndAOneSidedPredicate) {
+  std::vector<V> points;
+  for (int i = 0; i < 1000; ++i) points.emplace_back(i % 10, i / 10 % 10, i / 100);
+  for (const double spacing : {1e3, 1e-3})
+    EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), spacing), hmps::InputError) << spacing;
+  const auto one_sided = [](std::size_t i, std::size_t j) { return i < j; };
+  EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), 1.0, one_sided), hmps::InputError);
+}
+
 }  // namespace surface_layers_test

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "../../reference/backwards.hpp"
 #include "../../reference/scenes.hpp"
@@ -163,6 +164,19 @@ TEST(FixedRadiusErrors, NameTheParticles) {
   EXPECT_TRUE(has(search(0.3), "particles 20 and 150 lie at the same place")) << search(0.3);
   points[77][2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(has(search(0.3), "component 2 of the position of particle 77 is nan")) << search(0.3);
+}
+
+TEST(FixedRadiusSearchMisuse, IsRefused) {
+  using V = hmps::Vector<double, 3>;
+  const std::vector<V> points{V(0, 0, 0), V(1, 0, 0)};
+  const hmps::FixedRadiusSearch<const double, 3> search(hmps::vectors(points));
+  std::vector<hmps::Index> found;
+  for (const double radius : {-1.5, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(search(points[0], radius, found), hmps::InputError);
+    EXPECT_THROW((void)search.count(points[0], radius), hmps::InputError);
+  }
+  EXPECT_THROW(search(V(NAN, 0, 0), 1.5, found), hmps::InputError);
+  EXPECT_THROW((void)search.nearest(2), hmps::InputError);
 }
 
 }  // namespace fixed_radius_test

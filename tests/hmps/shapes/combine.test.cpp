@@ -137,4 +137,16 @@ TYPED_TEST(Combine, MovesAndTurnsAndMirrors) {
   });
 }
 
+TEST(CombineMisuse, IsRefused) {
+  using V = Vector<double, 3>;
+  auto ball = [](const V& x) { return x.norm() - 1; };
+  EXPECT_THROW((void)hmps::unite_all(std::vector<decltype(ball)>{}), hmps::InputError);
+  EXPECT_THROW((void)hmps::layer(ball, 0.2, -0.2), hmps::InputError);
+  EXPECT_THROW((void)hmps::shell(ball, -0.2), hmps::InputError);
+  for (const double radius : {-0.1, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW((void)hmps::smooth_unite(ball, ball, radius), hmps::InputError);
+  EXPECT_THROW((void)hmps::rotated(ball, Matrix<double, 3>(2 * Matrix<double, 3>::Identity())), hmps::InputError);
+  for (const int axis : {-1, 3}) EXPECT_THROW((void)hmps::mirrored(ball, axis), hmps::InputError);
+}
+
 }  // namespace combine_test

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "hmps/shapes/surfaces.hpp"
 
@@ -61,6 +63,28 @@ TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
 
 TEST(SurfacePatch, RefusesLengthsThatCannotBe) {
   for (const double longest : {0.0, -1.0, 1e-4}) EXPECT_THROW((void)refine(brick(), longest), InputError) << longest;
+}
+
+SurfaceMesh<double> inside_out() {
+  SurfaceMesh<double> mesh = brick();
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TEST(SurfacePatch, OfASurfaceThatIsInsideOutIsRefused) {
+  const auto all = [](const V&, const V&) { return true; };
+  EXPECT_NO_THROW((void)surface_patch(brick(), all));
+  EXPECT_THROW((void)surface_patch(inside_out(), all), InputError);
+}
+
+TEST(SurfaceMeasures, RefuseTrianglesOfVerticesThatAreNotThere) {
+  SurfaceMesh<double> mesh = brick();
+  mesh.triangles[3][1] = 99999;
+  EXPECT_THROW((void)area(mesh), InputError);
+  EXPECT_THROW((void)volume(mesh), InputError);
+  EXPECT_THROW((void)inside(mesh, V(0, 0, 0)), InputError);
+  EXPECT_THROW((void)inside(SurfaceMesh<double>{}, V(0, 0, 0)), InputError);
+  EXPECT_THROW((void)inside(brick(), V(NAN, 0, 0)), InputError);
 }
 
 }  // namespace surface_patch_test

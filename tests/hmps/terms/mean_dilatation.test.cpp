@@ -191,4 +191,9 @@ TEST(SplitBulkModulus, NamesWhatIsWrong) {
   EXPECT_EQ(hmps::split_bulk_modulus(1.0, 1.0).mean, 0);
 }
 
+TEST(SplitBulkModulus, RefusesModuliThatWereInterchanged) {
+  EXPECT_NO_THROW((void)hmps::split_bulk_modulus(2e6, 15e3));
+  EXPECT_THROW((void)hmps::split_bulk_modulus(15e3, 2e6), hmps::InputError);
+}
+
 }  // namespace mean_dilatation_test

@@ -6,14 +6,20 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "../bonds/bonds_of_a_scene.hpp"
+#include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/internal_force.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/laws/neo_hookean.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
+#include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/record.hpp"
 #include "hmps/terms/viscous.hpp"
 
@@ -109,6 +115,48 @@ TYPED_TEST(Parameters, OfAnotherSizeOrOfAnUnknownBodyAreRefused) {
                               " but the table of parameters has 2"))
         << text;
   }
+}
+
+struct OwnLaw {
+  double factor, turning;
+  template <class T, int D>
+  [[nodiscard]] hmps::Matrix<T, D> second_piola_kirchhoff(const hmps::Matrix<T, D>& C, const T& J) const {
+    hmps::Matrix<T, D> S;
+    for (int k = 0; k < D * D; ++k) S(k % D, k / D) = T(factor) * (C(k % D, k / D) - T(k % D == k / D ? 1.0 : 0.0));
+    S(0, 1) = S(0, 1) + T(turning) * J;
+    return S;
+  }
+};
+
+// Each of them gave a force that is NaN, that feeds on motion, or that turns the body.
+TEST(ParametersOfTerms, AreCheckedWhenTheForceIsMade) {
+  std::vector<hmps::Vector<double, 2>> X;
+  for (int i = 0; i < 25; ++i) X.emplace_back(i % 5, i / 5);
+  const hmps::BondList<double, 2> bonds(hmps::vectors(X), {.spacing = 1});
+  std::vector<double> numbers(25, 1e4);
+  const auto view = hmps::scalars(std::as_const(numbers));
+  const auto law = [&](const auto& at) { return hmps::NeoHookean{at(view), at(view)}; };
+  const auto try_all = [&](auto&& expect) {
+    expect([&] { (void)hmps::internal_force(bonds, hmps::elastic(law)); }, "modulus of the law");
+    expect([&] { (void)hmps::internal_force(bonds, hmps::artificial(view)); }, "artificial");
+    expect([&] { (void)hmps::internal_force(bonds, hmps::mean_dilatation(view)); }, "mean_dilatation");
+    expect([&] { (void)hmps::internal_force(bonds, hmps::viscous(view, 2e-3)); }, "density");
+  };
+  try_all([](auto&& make, const char*) { EXPECT_NO_THROW(make()); });
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    numbers[7] = bad;
+    try_all([](auto&& make, const char* name) {
+      const std::string text = hmps_test::message_of(make);
+      EXPECT_NE(text.find(name), std::string::npos) << text;
+      EXPECT_NE(text.find("particle 7"), std::string::npos) << text;
+    });
+  }
+  const auto own = [&](double factor, double turning) {
+    return hmps_test::message_of([&] { (void)hmps::internal_force(bonds, hmps::elastic(OwnLaw{factor, turning})); });
+  };
+  EXPECT_EQ(own(1e4, 0), "");
+  EXPECT_NE(own(std::numeric_limits<double>::quiet_NaN(), 0).find("not finite"), std::string::npos);
+  EXPECT_NE(own(1e4, 100).find("symmetric"), std::string::npos);
 }
 
 }  // namespace term_test

@@ -13,6 +13,7 @@
 #include "hmps/contact/organ.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -88,6 +89,12 @@ class OrganPairs {
   }
 
  private:
+  [[nodiscard]] bool is_slave_of(std::size_t o, Index particle) const {
+    const auto first = members_.begin() + static_cast<std::ptrdiff_t>(organs_[o].begin),
+               last = members_.begin() + static_cast<std::ptrdiff_t>(organs_[o].end);
+    const auto at = std::lower_bound(first, last, particle, [](const Member& m, Index i) { return m.particle < i; });
+    return at != last && at->particle == particle && (at->flags & is_slave) != 0;
+  }
   void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
   [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
 
@@ -109,6 +116,10 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ) {
   std::sort(all.begin(), all.end());
   require(all.back().first != no_particle, "hmps: organ '", organ.name, "' names particle ", no_particle,
           ", which is no index");
+  const ParticleSet* const prescribed_set = set_in(organ.prescribed);
+  require(prescribed_set == nullptr || all.back().first < prescribed_set->scene_size(), "hmps: organ '", organ.name,
+          "' names particle ", all.back().first, ", but its set of prescribed particles is of a scene of ",
+          prescribed_set == nullptr ? 0 : prescribed_set->scene_size(), "; make it for all particles");
   const std::size_t begin = members_.size();
   for (const auto& [i, role] : all) {
     if (members_.size() == begin || members_.back().particle != i) {
@@ -138,9 +149,19 @@ inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const Pair
             "; declare a pair once (the order does not matter), or its forces count twice");
   std::vector<Index> excluded(settings.excluded_slaves.begin(), settings.excluded_slaves.end());
   std::sort(excluded.begin(), excluded.end());
+  for (const Index i : excluded)
+    require(is_slave_of(a, i) || is_slave_of(b, i), "hmps: particle ", i, " is excluded from the contact of '",
+            organs_[a].name, "' and '", organs_[b].name, "' but is slave of neither; give indices of their slaves");
   const Pair pair{a, b, std::move(excluded), settings.excluded};
   const bool first = settings.roles != Roles::only_second_is_slave,
              second = settings.roles != Roles::only_first_is_slave;
+  const auto all_excluded = [&](std::size_t o) {
+    const std::vector<Index> slaves = particles_of(o, is_slave);
+    return std::none_of(slaves.begin(), slaves.end(), [&](Index i) { return pair.may_be_slave(i); });
+  };
+  require(pair.excluded_slaves.empty() || (first && !all_excluded(a)) || (second && !all_excluded(b)),
+          "hmps: all slaves of '", organs_[a].name, "' and '", organs_[b].name,
+          "' that could touch are excluded; leave the pair out, or check the distance (m) given to exclude_attached");
   if (first) check_side(a, b, pair);
   if (second) check_side(b, a, pair);
   pairs_.push_back(pair);

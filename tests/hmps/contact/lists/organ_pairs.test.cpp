@@ -74,4 +74,22 @@ TEST(OrganPairs, RefuseWhatIsNoOrganOrNoIndex) {
   EXPECT_THROW(pairs.add_pair(a, 7, {}), hmps::InputError);
 }
 
+TEST(OrganPairs, RefuseExclusionsThatDoNotFit) {
+  const List one{1, 2}, other{3, 4};
+  OrganPairs pairs;
+  const auto a = pairs.add_organ({.name = "a", .slaves = one, .masters = one});
+  const auto b = pairs.add_organ({.name = "b", .slaves = other, .masters = other});
+  const List stranger{7}, all{1, 2, 3, 4}, half{1, 2};
+  EXPECT_THROW(pairs.add_pair(a, b, {.excluded_slaves = stranger}), hmps::InputError);
+  EXPECT_THROW(pairs.add_pair(a, b, {.excluded_slaves = all}), hmps::InputError);
+  EXPECT_THROW(pairs.add_pair(a, b, {.roles = hmps::Roles::only_first_is_slave, .excluded_slaves = half}),
+               hmps::InputError);
+  EXPECT_NO_THROW(pairs.add_pair(a, b, {.excluded_slaves = half}));
+#ifdef __cpp_rtti
+  const hmps::ParticleSet of_another_scene(4, [](std::size_t) { return true; });
+  EXPECT_THROW(pairs.add_organ({.name = "c", .slaves = other, .masters = other, .prescribed = of_another_scene}),
+               hmps::InputError);
+#endif
+}
+
 }  // namespace organ_pairs_test
