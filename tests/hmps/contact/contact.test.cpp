@@ -528,10 +528,8 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
   const auto faces = made.contact.add_organ({.name = "faces", .slaves = both_faces, .masters = {}});
   EXPECT_NO_THROW(made.contact.add_pair(made.plate, faces,
                                         {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom}));
-  EXPECT_FALSE(message_of([&] {
-                 made.contact.add_pair(made.plate, skin,
-                                       {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom});
-               }).empty())
+  const hmps::PairSettings all_excluded{.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = bottom};
+  EXPECT_FALSE(message_of([&] { made.contact.add_pair(made.plate, skin, all_excluded); }).empty())
       << "nothing could touch";
   const auto rest = made.contact.add_organ({.name = "rest", .slaves = bottom, .masters = {}});
   EXPECT_NO_THROW(made.contact.add_pair(
