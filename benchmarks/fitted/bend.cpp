@@ -114,10 +114,6 @@ class Flexure {
   return std::abs(by_energy / moment - 1) < 1e-6 && std::abs(Flexure(stiff, turn).moment() / rivlin - 1) < 1e-4;
 }
 
-void put(const hmps::VectorView<double, 3>& vectors, std::size_t i, const Vector& value) {
-  for (int c = 0; c < 3; ++c) vectors(i, c) = value[c];
-}
-
 /// The bending moment over the exact one, at `turn` rad per m. All particles start where the exact solution has them.
 /// Those of one end stay there. Those of the other end move together without turning, so that nothing pulls at them.
 /// Those of the narrow sides stay in their planes. The moment is that of the forces on an end, which at rest is the
@@ -139,9 +135,9 @@ void put(const hmps::VectorView<double, 3>& vectors, std::size_t i, const Vector
         Vector mean = Vector::Zero();
         for (const std::size_t i : last) mean += f[i] / static_cast<double>(last.size());
         mean -= mean.dot(across) * across;
-        for (const std::size_t i : sides) put(f, i, f[i] - f[i].dot(across) * across);
-        for (const std::size_t i : first) put(f, i, Vector::Zero());
-        for (const std::size_t i : last) put(f, i, mean);
+        for (const std::size_t i : sides) f.set(i, Vector(f[i] - f[i].dot(across) * across));
+        for (const std::size_t i : first) f.set(i, Vector::Zero());
+        for (const std::size_t i : last) f.set(i, mean);
       },
       12 * exact.moment() * width / wall, 3e-4);
   Vector middle = Vector::Zero(), torque = Vector::Zero();

@@ -174,24 +174,23 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x)
   for (; seen_organs_ < organs.organs().size(); ++seen_organs_) {
     const auto& organ = organs.organs()[seen_organs_];
     const std::size_t n = organ.end - organ.begin, samples = std::min(n, most_samples);
-    if (n < fewest) continue;
     const double reach = Kernel::radius * settings_.spacing;
-    const auto place = [&](std::size_t k) -> Vector<double, D> {
-      return x[organs.members()[organ.begin + k].particle].template cast<double>();
-    };
-    bool finite = true;  // where not, `gather` says so
-    for (std::size_t k = 0; k < n; ++k) finite = finite && detail::all_finite(place(k));
-    if (!finite) continue;
-    detail::Grid<double, D> grid;
-    grid.build(n, reach, place);
     std::size_t alone = 0;
-    for (std::size_t k = 0; k < samples; ++k) {
-      std::size_t found = 0;
-      grid.visit(place(k * n / samples), reach, [&](Index, double) { ++found; });
-      alone += found < 2 ? 1 : 0;
+    for (std::size_t k = 0; n >= fewest && k < samples; ++k) {
+      const std::size_t at = k * n / samples;
+      const auto is_close = [&](std::size_t j) {  // or is not finite, as `gather` says then
+        const Point apart =
+            (x[organs.members()[organ.begin + j].particle] - x[organs.members()[organ.begin + at].particle])
+                .template cast<S>();
+        return j != at && !(static_cast<double>(apart.squaredNorm()) > reach * reach);
+      };
+      std::size_t j = 0;
+      while (j < n && !is_close(j)) ++j;
+      alone += j == n ? 1 : 0;
     }
-    detail::require(10 * alone < 9 * samples, "hmps: ", alone, " of ", samples, " particles of '", organ.name,
-                    "' that were looked at have no other within ", Kernel::radius, " spacings of ", settings_.spacing,
+    detail::require(n < fewest || 10 * alone < 9 * samples, "hmps: ", alone, " of ", samples, " particles of '",
+                    organ.name, "' that were looked at have no other within ", Kernel::radius, " spacings of ",
+                    settings_.spacing,
                     " m, so that they form no wall; give contact the particles' spacing, in the unit of the positions");
   }
 }

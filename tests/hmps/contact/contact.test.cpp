@@ -579,6 +579,31 @@ TEST(Pairs, MayHaveFrictionAndStiffnessOfTheirOwn) {
   EXPECT_THROW(forces(rough, {.friction = std::numeric_limits<double>::quiet_NaN()}, {}), hmps::InputError);
 }
 
+TEST(Door, RefusesOrgansOfWhichNoneMayTouch) {
+  bodies::Pile<double, 3> pile(0.9);
+  MetaballContact<double, 3> contact(with_friction);
+  contact.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .prescribed = {}});
+  EXPECT_NO_THROW(pile.apply(contact, dt)) << "one organ, to which others may be added";
+  contact.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower, .prescribed = {}});
+  const std::string said = message_of([&] { pile.apply(contact, dt); });
+  EXPECT_NE(said.find("2 organs but no pair"), std::string::npos) << said;
+}
+
+TEST(Door, RefusesASpacingFarBelowThatOfTheParticles) {
+  for (const double factor : {1e-3, 0.3, 0.7}) {
+    bodies::Pile<double, 3> pile(0.9);
+    hmps::ContactSettings settings = with_friction;
+    settings.spacing *= factor;
+    MetaballContact<double, 3> contact(settings);
+    pile.declare(contact);
+    const std::string said = message_of([&] { pile.apply(contact, dt); });
+    if (factor < 0.4)  // within 2.5 spacings there is no other
+      EXPECT_NE(said.find("particles of 'plate'"), std::string::npos) << factor << said;
+    else
+      EXPECT_EQ(said.find("form no wall"), std::string::npos) << factor << said;
+  }
+}
+
 TEST(Door, RefusesBadInput) {
   using Contact = MetaballContact<double, 3>;
   const auto refuse = [](hmps::ContactSettings settings) { EXPECT_THROW(Contact{settings}, hmps::InputError); };
