@@ -12,7 +12,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/view.hpp"
 
-namespace metaball_test {
+namespace bond_settings_test {
 
 using V = hmps::Vector<double, 2>;
 using hmps::EveryBond;
@@ -61,4 +61,4 @@ TYPED_TEST(BondsOfAnyKind, HaveAFiniteScaleWhereNoParticleIsBonded) {
   EXPECT_GT(bonds.standard_lambda(), 0);
 }
 
-}  // namespace metaball_test
+}  // namespace bond_settings_test
