@@ -35,9 +35,8 @@ class NormalDensity {
     find_deepest();
     const double top = in_spacings(deepest_);
     detail::require(detail::is_finite(top) && top > 0 && least_slope_ > 0,
-                    "hmps: the metaball kernel forms no wall: its "
-                    "sum is ",
-                    top, " at ", deepest_, " spacings; its value must be finite and fall from above 0 to 0");
+                    "hmps: the metaball kernel forms no wall: its sum is ", top, " at ", deepest_,
+                    " spacings; its value must be finite and fall from above 0 to 0");
     table_.resize(nodes + 1);
     std::vector<double> distance(nodes + 1);
     distance[0] = Kernel::radius;

@@ -151,9 +151,8 @@ template <class A, class S, int D>
 [[nodiscard]] auto rotated(A a, const Matrix<S, D>& rotation, const Vector<S, D>& pivot) {
   const Matrix<S, D> excess = rotation * rotation.transpose() - Matrix<S, D>::Identity();
   detail::require(detail::all_finite(excess) && excess.norm() < S(1e-3),
-                  "hmps: a shape is rotated by the matrix (by "
-                  "columns) ",
-                  rotation, ", which is not orthogonal; give a rotation, or use warped");
+                  "hmps: a shape is rotated by the matrix (by columns) ", rotation,
+                  ", which is not orthogonal; give a rotation, or use warped");
   return detail::Combined{[a = std::move(a), rotation, pivot](const auto& x) {
     return a(Vector<S, D>(pivot + rotation.transpose() * (x - pivot)));
   }};
