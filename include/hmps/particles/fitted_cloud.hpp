@@ -44,23 +44,20 @@ class FittedCloud {
   void seed(const E& execute) {
     const auto& samples = field_.samples();
     constexpr int most = Field::most_layers;
-    std::vector<int> layer(samples.size());
-    execute(samples.size(), [&](std::size_t k) {
-      const Layering here = field_.layering(samples[k].place);
-      layer[k] = here.spacing < thinnest_ ? -1 : std::min(here.layer(-field_(samples[k].place)), most);
-    });
+    std::vector<Parts> parts(samples.size());
+    execute(samples.size(), [&](std::size_t k) { parts[k] = parts_of(samples[k]); });
     const double share = std::pow(field_.spacing(), D);
-    std::array<double, std::size_t{most + 1}> passed;
-    passed.fill(0.5);
+    std::array<std::array<double, std::size_t{most + 1}>, 2> passed;  // of either side, so that both get their share
+    for (auto& of_side : passed) of_side.fill(0.5);
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      if (layer[k] < 0) continue;
-      double& sum = passed[static_cast<std::size_t>(layer[k])];
-      sum += samples[k].volume / share;
-      if (sum < 1) continue;
-      sum -= 1;
-      Particle particle;
-      particle.place = particle.safe = samples[k].place;
-      particles_.push_back(particle);
+      for (int part = 0; part < (parts[k].layer < 0 ? 0 : 2); ++part) {
+        const int layer = std::min(parts[k].layer + part, most);
+        double& sum = passed[parts[k].side][static_cast<std::size_t>(layer)];
+        sum += (part == 0 ? parts[k].first : 1 - parts[k].first) * samples[k].volume / share;
+        if (sum < 1) continue;
+        sum -= 1;
+        particles_.push_back(in_layer(samples[k].place, layer));
+      }
     }
     require(particles_.size() < std::numeric_limits<Index>::max(), "hmps: the shape holds ", particles_.size(),
             " particles, more than an index of 32 bits can name; give a larger spacing");
@@ -102,7 +99,39 @@ class FittedCloud {
 
  private:
   static constexpr int between_looks = 8;
-  static constexpr double range = 1.6;  // of the repulsion in spacings
+  static constexpr double range = 1.6;        // of the repulsion in spacings
+  static constexpr double least_slope = 0.3;  // squared: less is on a middle surface
+
+  /// How a sample is shared by two layers, the second of which lies deeper.
+  struct Parts {
+    int layer = -1;   // the first; -1: the wall is too thin for particles
+    float first = 1;  // share of the volume
+    unsigned char side = 0;
+  };
+
+  /// A sample that reaches across the face between two layers belongs to both: else a wall along the grid of samples
+  /// would fill some layers with whole rows of samples too much.
+  [[nodiscard]] Parts parts_of(const Sample<D>& sample) const {
+    const Layering here = field_.layering(sample.place);
+    if (here.spacing < thinnest_) return {};
+    const double edge = field_.spacing() / Field::samples_per_spacing, full = std::pow(edge, D);
+    const double half = 0.5 * edge * std::min(1.0, sample.volume / full), depth = -field_(sample.place);
+    const int layer = here.layer(depth - half), last = here.layer(depth + half);
+    const auto side = static_cast<unsigned char>(here.side);
+    if (last == layer) return {layer, 1, side};
+    const double share = ((layer + 1) * here.spacing - depth + half) / (2 * half);
+    return {layer, static_cast<float>(std::clamp(share, 0.0, 1.0)), side};
+  }
+
+  [[nodiscard]] Particle in_layer(const Point& place, int layer) const {
+    Particle particle;
+    particle.place = particle.safe = place;
+    look(particle);
+    const double slope = particle.slope.squaredNorm();
+    if (layer != particle.layers.layer(particle.depth) && slope > least_slope)
+      particle.place += (particle.depth - particle.layers.level(layer)) / slope * particle.slope;
+    return particle;
+  }
 
   /// Takes depth, slope and layers anew. A particle that got where the body is too thin goes back.
   void look(Particle& p) const {
@@ -123,7 +152,7 @@ class FittedCloud {
   /// Moves a particle to the middle of its layer, as far as the layer holds it, on the surface as seen last.
   static void level(Particle& p) {
     const double slope = p.slope.squaredNorm();
-    if (slope < 0.3) return;  // on the middle surface
+    if (slope < least_slope) return;
     const double depth = p.depth - p.slope.dot(p.place - p.seen);
     const int layer = p.layers.layer(depth);
     const double hold = p.layers.hold(layer);

@@ -34,6 +34,13 @@ struct SurfacePoint {
   Vector<double, D> place, outward;
   double least = 0;      // m, twice the radius of the largest ball inside that touches the surface here
   double thickness = 0;  // m; 0: that ball touches no opposite side but an edge
+
+  /// By a direction in which few surfaces lie.
+  [[nodiscard]] int side() const {
+    double along = 0;
+    for (int c = 0; c < D; ++c) along += (1 + 0.618 * c) * outward[c];
+    return along > 0 ? 1 : 0;
+  }
 };
 
 /// How the layers lie at a place: `count` of them across, `spacing` apart, or any number in what is thick.
@@ -42,6 +49,7 @@ struct Layering {
   double spacing = 0;    // m
   int count = 0;
   bool thick = true;
+  int side = 0;  // 0 or 1: which way the nearest part of the surface faces, so that opposite faces of a wall differ
 
   /// The layer of a particle at `depth`, counted from the nearest surface.
   [[nodiscard]] int layer(double depth) const {
@@ -108,10 +116,12 @@ class FittedField {
   [[nodiscard]] Layering layering(const Point& x) const {
     if (-(*this)(x) >= most_layers * spacing_ / 2) return {most_layers * spacing_, spacing_, most_layers, true};
     const double nearby = 1.5 * spacing_, farthest = 13 * spacing_;
-    double weight = 0, sum = 0, least = 0;
+    double weight = 0, sum = 0, least = 0, closest = std::numeric_limits<double>::infinity();
+    int side = 0;
     for (double radius = nearby; radius < farthest && !(weight > 0); radius *= 2) {
       grid_.visit(x, radius, [&](Index k, double squared) {
         const SurfacePoint<D>& point = surface_[k];
+        if (squared < closest) closest = squared, side = point.side();
         if (radius > nearby) least = std::max(least, point.least);
         if (!(point.thickness > 0)) return;
         const double w = 1 - std::sqrt(squared) / radius;
@@ -123,7 +133,7 @@ class FittedField {
     const double thickness = std::max(weight > 0 ? sum / weight : most_layers * spacing_, least);
     // Walls of half a layer too much are rounded up all over, whatever the rounding of their thickness.
     const int count = std::max(least_layers_, static_cast<int>(thickness / spacing_ + 0.501));
-    return {thickness, thickness / count, count, thickness > (most_layers - 0.01) * spacing_};
+    return {thickness, thickness / count, count, thickness > (most_layers - 0.01) * spacing_, side};
   }
 
   [[nodiscard]] const std::vector<Sample<D>>& samples() const { return samples_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "hmps/bonds/weight.hpp"
@@ -26,37 +27,119 @@ struct ThinWallStabiliser {
 
 namespace detail {
 
-/// E_hat / mu for which a wall of `layers` twists correctly; `c` is the distance of the layers in spacings.
-[[nodiscard]] inline double thin_wall_modulus(int layers, double c) {
-  const double side = std::sqrt(2 / (std::sqrt(3.0) * c)), rise = side * std::sqrt(0.75), radius = paper_radius_ratio;
-  double strain = 0, misfit = 0;
-  for (int k = 0; k < layers; ++k) {
-    Matrix<double, 3> A = Matrix<double, 3>::Zero(), B[2] = {A, A};  // of two twists, the second turned by 45 degrees
-    double squares[2] = {0, 0};
-    for (int other = 0; other < layers; ++other) {
-      const double z = (other + 0.5 - 0.5 * layers) * c, hollow = other % 2 - k % 2;
-      for (int p = -5; p <= 5; ++p)
-        for (int q = -3; q <= 3; ++q) {
-          const Vector<double, 3> r((p + 0.5 * q + 0.5 * hollow) * side, (q + hollow / 3) * rise, (other - k) * c);
-          const double w = PaperWeight{}(r.norm(), radius);
-          if (!(w > 0)) continue;
-          const Vector<double, 3> u[2] = {{-r[1] * z, -r[0] * z, r[0] * r[1]},
-                                          {-r[0] * z, r[1] * z, (r[0] * r[0] - r[1] * r[1]) / 2}};
-          A += w * r * r.transpose();
-          for (int m = 0; m < 2; ++m) {
-            B[m] += w * u[m] * r.transpose();
-            squares[m] += w * u[m].squaredNorm();
-          }
-        }
+/// Energies of a bent or twisted wall over its shear modulus and the square of the curvature, of one particle in each
+/// layer. Lengths are in spacings.
+template <class Real>
+struct WallEnergies {
+  Real twist_strain = 0, twist_misfit = 0;  // of two twists, the second turned by 45 degrees; misfit: for E_hat = mu
+  Real bending_shear = 0, bending_volume = 0, bending_misfit = 0;  // in plane strain; volume: for K = mu
+};
+
+/// Adds those of the particle at `place`, of which `visit` calls a function with every bond r.
+template <class Real, class Visit>
+void add_energies(WallEnergies<Real>& sum, const Visit& visit) {
+  using Matrix3 = Matrix<Real, 3>;
+  Matrix3 A = Matrix3::Zero(), B[3] = {A, A, A};
+  Real squares[3] = {0, 0, 0};
+  visit([&](const Vector<Real, 3>& r, Real height) {
+    const Real w = PaperWeight{}(r.norm(), Real(paper_radius_ratio));
+    if (!(w > 0)) return;
+    const Vector<Real, 3> u[3] = {{-r[1] * height, -r[0] * height, r[0] * r[1]},
+                                  {-r[0] * height, r[1] * height, (r[0] * r[0] - r[1] * r[1]) / 2},
+                                  {-r[0] * height, 0, r[0] * r[0] / 2}};
+    A += w * r * r.transpose();
+    for (int m = 0; m < 3; ++m) {
+      B[m] += w * u[m] * r.transpose();
+      squares[m] += w * u[m].squaredNorm();
     }
-    for (int m = 0; m < 2; ++m) {
-      const Matrix<double, 3> G = B[m] * A.inverse();
-      strain += (G + G.transpose()).squaredNorm() / 4;
-      misfit += 1.5 / A.trace() * (squares[m] - G.cwiseProduct(B[m]).sum());
-    }
+  });
+  const Matrix3 inverse = A.inverse();
+  for (int m = 0; m < 3; ++m) {
+    const Matrix3 G = B[m] * inverse;
+    const Real strain = (G + G.transpose()).squaredNorm() / 4, volume = G.trace() * G.trace();
+    const Real misfit = Real(1.5) / A.trace() * (squares[m] - G.cwiseProduct(B[m]).sum());
+    (m < 2 ? sum.twist_misfit : sum.bending_misfit) += misfit;
+    (m < 2 ? sum.twist_strain : sum.bending_shear) += m < 2 ? strain : strain - volume / 3;
+    if (m == 2) sum.bending_volume += volume / 2;
   }
-  return (std::pow(layers, 3) * c * c / 3 - strain) / misfit;
 }
+
+/// The energies of `layers` hexagonal layers, `apart` spacings apart, each over the hollows of the next, whose
+/// particles stand `disorder` of the distance of the sites from them: the standard deviation along both axes.
+template <class Real>
+[[nodiscard]] WallEnergies<Real> wall_energies(int layers, Real apart, Real disorder) {
+  constexpr int samples = 400;
+  const Real side = std::sqrt(2 / (std::sqrt(Real(3)) * apart)), rise = side * std::sqrt(Real(0.75));
+  Real drawn = 0;
+  // From -1/2 to 1/2; the parts of quadratic sequences behind the point are spread evenly, and independently in pairs.
+  const auto off = [&](Real root) { return drawn * drawn * root - std::floor(drawn * drawn * root) - Real(0.5); };
+  const auto moved = [&](Real x, Real y, Real z) {
+    ++drawn;
+    const Real by = disorder * std::sqrt(Real(12)) * side;
+    return Vector<Real, 3>(x * side + by * off(std::sqrt(Real(2))), y * rise + by * off(std::sqrt(Real(3))), z);
+  };
+  WallEnergies<Real> sum;
+  for (int layer = 0; layer < layers; ++layer)
+    for (int sample = 0; sample < samples; ++sample) {
+      const Vector<Real, 3> own = moved(0, 0, 0);
+      add_energies(sum, [&](const auto& bond) {
+        for (int other = 0; other < layers; ++other) {
+          const Real height = (other + Real(0.5) - Real(0.5) * layers) * apart, hollow = Real(other % 2 - layer % 2);
+          for (int p = -4; p <= 4; ++p)
+            for (int q = -3; q <= 3; ++q)
+              if (other != layer || p != 0 || q != 0)
+                bond(moved(p + (q + hollow) / 2, q + hollow / 3, (other - layer) * apart) - own, height);
+        }
+      });
+    }
+  for (Real* energy :
+       {&sum.twist_strain, &sum.twist_misfit, &sum.bending_shear, &sum.bending_volume, &sum.bending_misfit})
+    *energy /= samples;
+  return sum;
+}
+
+/// What makes a wall twist and bend correctly, over its shear modulus.
+template <class Real>
+struct WallModuli {
+  Real artificial = 0, law = 0;  // E_hat, and the bulk modulus of the law
+};
+
+/// Those of fitted walls of a material with the bulk modulus `bulk` over its shear modulus.
+template <class Real>
+class FittedWallModuli {
+ public:
+  explicit FittedWallModuli(Real bulk) : plate_(4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3)) {}
+
+  /// For layers `apart` spacings apart: between values that are 0.05 spacings apart.
+  [[nodiscard]] WallModuli<Real> operator()(int layers, Real apart) {
+    const Real at = std::max((apart - closest) / step, Real(0)), share = at - std::floor(at);
+    const auto lower = static_cast<std::size_t>(at);
+    const WallModuli<Real> a = node(layers, lower), b = share > 0 ? node(layers, lower + 1) : a;
+    return {a.artificial + share * (b.artificial - a.artificial), a.law + share * (b.law - a.law)};
+  }
+
+ private:
+  static constexpr Real closest = Real(0.6), step = Real(0.05);
+
+  /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
+  static constexpr Real disorder = Real(0.14);
+
+  [[nodiscard]] WallModuli<Real> node(int layers, std::size_t k) {
+    auto& known = known_[layers];
+    known.resize(std::max(known.size(), k + 1));
+    if (!(known[k].artificial > 0)) {
+      const Real apart = closest + step * static_cast<Real>(k), cube = std::pow(Real(layers), 3) * apart * apart;
+      const WallEnergies<Real> e = wall_energies<Real>(layers, apart, disorder);
+      const Real artificial = (cube / 3 - e.twist_strain) / e.twist_misfit;
+      const Real rest = plate_ * cube / 24 - e.bending_shear - artificial * e.bending_misfit;
+      known[k] = {artificial, rest / e.bending_volume};
+    }
+    return known[k];
+  }
+
+  Real plate_;  // E / (1 - nu^2)
+  std::map<int, std::vector<WallModuli<Real>>> known_;
+};
 
 }  // namespace detail
 
@@ -68,14 +151,17 @@ namespace detail {
 ///     internal_force(bonds, elastic(MooneyRivlin<>::from_young(E, bulk.law / 2)), mean_dilatation<2>(bulk.mean),
 ///                    artificial([&](const auto& at) { return at(scalars(E_hat)); }))
 ///
-/// The choice is derived, not calibrated. A wall of thickness t with the twist kappa has the energy mu kappa^2 t^3 / 6
-/// per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial, equal to it for
-/// hexagonal layers in which each particle lies over a hollow of the next layer. The law keeps
+/// The choice is derived, not calibrated on bodies. A wall of thickness t with the twist kappa has the energy
+/// mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial,
+/// equal to it for hexagonal layers in which each particle lies over a hollow of the next layer, with as much disorder
+/// as `fit_particles` leaves. The law keeps, of the bulk modulus, what makes the energy of the same layers right when
+/// they are bent in plane strain: in bulk
 ///
 ///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 where the volume does not change
 ///
-/// because the two particles across a wall of two layers have the same J, so that the wall cannot become thinner on one
-/// side only: with K_law, a wall that cannot do so is as stiff as one that can. See docs/theory.md.
+/// and up to 3.1 mu in walls of two layers, the mean over all particles of walls. The particles across a wall of two
+/// layers have the same J in the mean, so that the wall cannot become thinner on one side only: with K_law, a wall that
+/// cannot do so is as stiff as one that can. See docs/theory.md.
 ///
 /// @param layers          layers through the wall at each particle; 0 in bulk, where E_hat is `shear_wave_modulus`
 /// @param layer_spacings  their distance in m
@@ -97,25 +183,30 @@ template <class P, class S>
                   " particles have a number of layers but ", layer_spacings.size(),
                   " a spacing of layers; give both of each particle");
   const P K = bulk_modulus, mu = shear_modulus;
-  const P law = std::min(K, 4 * mu * (K + mu / 3) / (K + 4 * mu / 3) - 4 * mu / 3);
-  ThinWallStabiliser<P> chosen{{}, {law, K - law}};
+  const P bulk_law = 4 * mu * (K + mu / 3) / (K + 4 * mu / 3) - 4 * mu / 3;
+  ThinWallStabiliser<P> chosen;
   chosen.moduli.reserve(layers.size());
-  int count = 0;
-  double apart = 0, modulus = 0;
+  detail::FittedWallModuli<double> wall(static_cast<double>(K / mu));
+  double law = 0, walls = 0;
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    const double c = static_cast<double>(layer_spacings[i]) / spacing;
+    const double apart = static_cast<double>(layer_spacings[i]) / spacing;
     if (layers[i] == 0) {
       chosen.moduli.push_back(shear_wave_modulus(mu));
       continue;
     }
     detail::require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
                     " layers; it takes two to bend, and more than eight are bulk (0)");
-    detail::require(c >= 0.6 - 1e-6 && c <= 1.3, "hmps: the layers at particle ", i, " are ", c,
+    detail::require(apart >= 0.6 - 1e-6 && apart <= 1.3, "hmps: the layers at particle ", i, " are ", apart,
                     " spacings apart; give a spacing of which they are 0.6 to 1.3");
-    if (layers[i] != count || c != apart)  // usually equal to that of the previous particle
-      modulus = detail::thin_wall_modulus(count = layers[i], apart = c);
-    chosen.moduli.push_back(static_cast<P>(modulus) * mu);
+    const detail::WallModuli<double> own = wall(layers[i], apart);
+    chosen.moduli.push_back(static_cast<P>(own.artificial) * mu);
+    law += own.law;
+    ++walls;
   }
+  // Of layers much closer than a spacing the sums would ask for less than none.
+  const P asked = walls > 0 ? static_cast<P>(law / walls) * mu : bulk_law;
+  chosen.bulk.law = std::min(K, std::max(asked, bulk_law / 2));
+  chosen.bulk.mean = K - chosen.bulk.law;
   return chosen;
 }
 

@@ -82,8 +82,30 @@ TEST(FitParticles, FillsATiltedPlateWithWholeLayers) {
     for (const int n : count) EXPECT_NEAR(n, sum(count) / layers, 0.15 * sum(count) / layers) << thickness;
     EXPECT_LT(fitted.largest_distance, 1e-9);
     EXPECT_GT(nearest(fitted.positions, 1.5), 0.55);
-    EXPECT_TRUE(hmps::find_weak(hmps::vectors(fitted.positions), {.spacing = 1}).empty());
+    // Along edges and in corners, half a layer from two or three faces, support is less than on a lattice.
+    for (const auto& [i, support] : hmps::find_weak(hmps::vectors(fitted.positions), {.spacing = 1})) {
+      const V3 at = plate.local(fitted.positions[i]), far(10 - at[0], 8 - at[1], thickness - at[2]);
+      EXPECT_GE((at.cwiseMin(far).array() < 0.6).count(), 2) << at.transpose();
+      EXPECT_GT(support, 0.5) << at.transpose();
+    }
     EXPECT_NO_THROW((hmps::BondList<double, 3>(hmps::vectors(fitted.positions), {.spacing = 1})));
+  }
+}
+
+// Along the grid of samples too, whose rows do not end where layers do; the two faces of a wall are one layer.
+TEST(FitParticles, FillsAllLayersOfABoxAlike) {
+  for (const double thickness : {2.0, 3.3, 4.0, 4.45}) {
+    const Box<double, 3> box{V3(0.3, 0.1, 0.2), V3(16.3, 14.1, 0.2 + thickness)};
+    const auto fitted = fit_particles(box, box, 1.0);
+    const int layers = static_cast<int>(std::lround(thickness));
+    std::vector<int> count(static_cast<std::size_t>(layers));
+    for (const V3& x : fitted.positions) {
+      const V3 at = x - box.lower;
+      if (std::min({at[0], 16 - at[0], at[1], 14 - at[1]}) < 2) continue;
+      ++count[static_cast<std::size_t>(std::clamp(static_cast<int>(at[2] / thickness * layers), 0, layers - 1))];
+    }
+    // 120 spacings^2 of each layer. Without shares of layers and faces, 17 % too many or few.
+    for (const int n : count) EXPECT_NEAR(n, 120 * thickness / layers, 0.08 * 120) << thickness;
   }
 }
 
