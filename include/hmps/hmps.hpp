@@ -138,4 +138,5 @@
 #include "hmps/terms/term.hpp"
 #include "hmps/terms/thin_wall_stabiliser.hpp"
 #include "hmps/terms/viscous.hpp"
+#include "hmps/terms/wall_column.hpp"
 #include "hmps/time/symplectic_euler.hpp"

@@ -50,10 +50,11 @@ class FittedCloud {
     std::array<std::array<double, std::size_t{most + 1}>, 2> passed;  // of either side, so that both get their share
     for (auto& of_side : passed) of_side.fill(0.5);
     for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double first = static_cast<double>(parts[k].first);
       for (int part = 0; part < (parts[k].layer < 0 ? 0 : 2); ++part) {
         const int layer = std::min(parts[k].layer + part, most);
         double& sum = passed[parts[k].side][static_cast<std::size_t>(layer)];
-        sum += (part == 0 ? parts[k].first : 1 - parts[k].first) * samples[k].volume / share;
+        sum += (part == 0 ? first : 1 - first) * samples[k].volume / share;
         if (sum < 1) continue;
         sum -= 1;
         particles_.push_back(in_layer(samples[k].place, layer));

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <utility>
 #include <vector>
 
-#include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/shear_wave_modulus.hpp"
+#include "hmps/terms/wall_column.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -27,118 +27,82 @@ struct ThinWallStabiliser {
 
 namespace detail {
 
-/// Energies of a bent or twisted wall over its shear modulus and the square of the curvature, of one particle in each
-/// layer. Lengths are in spacings.
+/// The walls of a fitted body: what makes them twist and bend correctly, over the shear modulus of the material.
 template <class Real>
-struct WallEnergies {
-  Real twist_strain = 0, twist_misfit = 0;  // of two twists, the second turned by 45 degrees; misfit: for E_hat = mu
-  Real bending_shear = 0, bending_volume = 0, bending_misfit = 0;  // in plane strain; volume: for K = mu
-};
-
-/// Adds those of the particle at `place`, of which `visit` calls a function with every bond r.
-template <class Real, class Visit>
-void add_energies(WallEnergies<Real>& sum, const Visit& visit) {
-  using Matrix3 = Matrix<Real, 3>;
-  Matrix3 A = Matrix3::Zero(), B[3] = {A, A, A};
-  Real squares[3] = {0, 0, 0};
-  visit([&](const Vector<Real, 3>& r, Real height) {
-    const Real w = PaperWeight{}(r.norm(), Real(paper_radius_ratio));
-    if (!(w > 0)) return;
-    const Vector<Real, 3> u[3] = {{-r[1] * height, -r[0] * height, r[0] * r[1]},
-                                  {-r[0] * height, r[1] * height, (r[0] * r[0] - r[1] * r[1]) / 2},
-                                  {-r[0] * height, 0, r[0] * r[0] / 2}};
-    A += w * r * r.transpose();
-    for (int m = 0; m < 3; ++m) {
-      B[m] += w * u[m] * r.transpose();
-      squares[m] += w * u[m].squaredNorm();
-    }
-  });
-  const Matrix3 inverse = A.inverse();
-  for (int m = 0; m < 3; ++m) {
-    const Matrix3 G = B[m] * inverse;
-    const Real strain = (G + G.transpose()).squaredNorm() / 4, volume = G.trace() * G.trace();
-    const Real misfit = Real(1.5) / A.trace() * (squares[m] - G.cwiseProduct(B[m]).sum());
-    (m < 2 ? sum.twist_misfit : sum.bending_misfit) += misfit;
-    (m < 2 ? sum.twist_strain : sum.bending_shear) += m < 2 ? strain : strain - volume / 3;
-    if (m == 2) sum.bending_volume += volume / 2;
-  }
-}
-
-/// The energies of `layers` hexagonal layers, `apart` spacings apart, each over the hollows of the next, whose
-/// particles stand `disorder` of the distance of the sites from them: the standard deviation along both axes.
-template <class Real>
-[[nodiscard]] WallEnergies<Real> wall_energies(int layers, Real apart, Real disorder) {
-  constexpr int samples = 400;
-  const Real side = std::sqrt(2 / (std::sqrt(Real(3)) * apart)), rise = side * std::sqrt(Real(0.75));
-  Real drawn = 0;
-  // From -1/2 to 1/2; the parts of quadratic sequences behind the point are spread evenly, and independently in pairs.
-  const auto off = [&](Real root) { return drawn * drawn * root - std::floor(drawn * drawn * root) - Real(0.5); };
-  const auto moved = [&](Real x, Real y, Real z) {
-    ++drawn;
-    const Real by = disorder * std::sqrt(Real(12)) * side;
-    return Vector<Real, 3>(x * side + by * off(std::sqrt(Real(2))), y * rise + by * off(std::sqrt(Real(3))), z);
-  };
-  WallEnergies<Real> sum;
-  for (int layer = 0; layer < layers; ++layer)
-    for (int sample = 0; sample < samples; ++sample) {
-      const Vector<Real, 3> own = moved(0, 0, 0);
-      add_energies(sum, [&](const auto& bond) {
-        for (int other = 0; other < layers; ++other) {
-          const Real height = (other + Real(0.5) - Real(0.5) * layers) * apart, hollow = Real(other % 2 - layer % 2);
-          for (int p = -4; p <= 4; ++p)
-            for (int q = -3; q <= 3; ++q)
-              if (other != layer || p != 0 || q != 0)
-                bond(moved(p + (q + hollow) / 2, q + hollow / 3, (other - layer) * apart) - own, height);
-        }
-      });
-    }
-  for (Real* energy :
-       {&sum.twist_strain, &sum.twist_misfit, &sum.bending_shear, &sum.bending_volume, &sum.bending_misfit})
-    *energy /= samples;
-  return sum;
-}
-
-/// What makes a wall twist and bend correctly, over its shear modulus.
-template <class Real>
-struct WallModuli {
-  Real artificial = 0, law = 0;  // E_hat, and the bulk modulus of the law
-};
-
-/// Those of fitted walls of a material with the bulk modulus `bulk` over its shear modulus.
-template <class Real>
-class FittedWallModuli {
+class FittedWalls {
  public:
-  explicit FittedWallModuli(Real bulk) : plate_(4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3)) {}
+  /// `bulk`: the bulk modulus over the shear modulus.
+  explicit FittedWalls(Real bulk)
+      : bulk_(bulk), bulk_law_(4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3) - Real(4) / 3) {}
 
-  /// For layers `apart` spacings apart: between values that are 0.05 spacings apart.
-  [[nodiscard]] WallModuli<Real> operator()(int layers, Real apart) {
+  /// Counts a particle of a wall, with layers `apart` spacings apart. Returns E_hat: between those of columns whose
+  /// spacings of layers are 0.05 apart.
+  Real add(int layers, Real apart) {
     const Real at = std::max((apart - closest) / step, Real(0)), share = at - std::floor(at);
     const auto lower = static_cast<std::size_t>(at);
-    const WallModuli<Real> a = node(layers, lower), b = share > 0 ? node(layers, lower + 1) : a;
-    return {a.artificial + share * (b.artificial - a.artificial), a.law + share * (b.law - a.law)};
+    const Real modulus = count(layers, lower, 1 - share);
+    return share > 0 ? (1 - share) * modulus + share * count(layers, lower + 1, share) : modulus;
+  }
+
+  /// The bulk modulus of the law with which the energies of bending are right, by least squares over the particles.
+  /// Where they hardly depend on it, it stays near that of bulk, E / (1 - nu^2) - 4/3.
+  [[nodiscard]] Real law() const {
+    if (known_.empty()) return bulk_law_;
+    const Real lowest = std::log(bulk_law_ / 4), highest = std::log(bulk_);
+    constexpr int steps = 100;
+    const auto at = [&](Real k) { return lowest + std::clamp(k / steps, Real(0), Real(1)) * (highest - lowest); };
+    int best = 0;
+    for (int k = 1; k <= steps; ++k)
+      if (cost(at(Real(k))) < cost(at(Real(best)))) best = k;
+    Real from = Real(best - 1), to = Real(best + 1);
+    for (int k = 0; k < 40; ++k) {  // thirds
+      const Real third = (to - from) / 3;
+      if (cost(at(from + third)) < cost(at(to - third)))
+        to -= third;
+      else
+        from += third;
+    }
+    return std::exp(at((from + to) / 2));
   }
 
  private:
   static constexpr Real closest = Real(0.6), step = Real(0.05);
-
   /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
   static constexpr Real disorder = Real(0.14);
+  /// What an e-fold of the law is worth as an error of the energy.
+  static constexpr Real reluctance = Real(0.02);
 
-  [[nodiscard]] WallModuli<Real> node(int layers, std::size_t k) {
-    auto& known = known_[layers];
-    known.resize(std::max(known.size(), k + 1));
-    if (!(known[k].artificial > 0)) {
-      const Real apart = closest + step * static_cast<Real>(k), cube = std::pow(Real(layers), 3) * apart * apart;
-      const WallEnergies<Real> e = wall_energies<Real>(layers, apart, disorder);
-      const Real artificial = (cube / 3 - e.twist_strain) / e.twist_misfit;
-      const Real rest = plate_ * cube / 24 - e.bending_shear - artificial * e.bending_misfit;
-      known[k] = {artificial, rest / e.bending_volume};
+  struct Node {
+    WallColumn<Real> column;
+    Real artificial;
+    Real particles = 0;
+  };
+
+  /// Counts a share of a particle in column `k` and returns its E_hat.
+  Real count(int layers, std::size_t k, Real share) {
+    auto found = known_.find({layers, k});
+    if (found == known_.end()) {
+      WallColumn<Real> column = hexagonal_column<Real>(layers, closest + step * static_cast<Real>(k), disorder);
+      const Real artificial = column.artificial();
+      found = known_.insert({{layers, k}, Node{std::move(column), artificial}}).first;
     }
-    return known[k];
+    found->second.particles += share;
+    return found->second.artificial;
   }
 
-  Real plate_;  // E / (1 - nu^2)
-  std::map<int, std::vector<WallModuli<Real>>> known_;
+  [[nodiscard]] Real cost(Real logarithm) const {
+    const Real law = std::exp(logarithm), change = reluctance * (logarithm - std::log(bulk_law_));
+    Real sum = 0, particles = 0;
+    for (const auto& [key, node] : known_) {
+      const Real error = node.column.bending(node.artificial, law, bulk_ - law) - 1;
+      sum += node.particles * error * error;
+      particles += node.particles;
+    }
+    return sum / particles + change * change;
+  }
+
+  Real bulk_, bulk_law_;
+  std::map<std::pair<int, std::size_t>, Node> known_;
 };
 
 }  // namespace detail
@@ -154,14 +118,13 @@ class FittedWallModuli {
 /// The choice is derived, not calibrated on bodies. A wall of thickness t with the twist kappa has the energy
 /// mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial,
 /// equal to it for hexagonal layers in which each particle lies over a hollow of the next layer, with as much disorder
-/// as `fit_particles` leaves. The law keeps, of the bulk modulus, what makes the energy of the same layers right when
-/// they are bent in plane strain: in bulk
+/// as `fit_particles` leaves. Of the bulk modulus the law keeps what makes the energy of the same layers right when
+/// they are bent in plane strain, in the mean over the particles of walls; the mean dilatation has the rest. In bulk,
+/// and about where bending does not depend on it, the law keeps
 ///
 ///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 where the volume does not change
 ///
-/// and up to 3.1 mu in walls of two layers, the mean over all particles of walls. The particles across a wall of two
-/// layers have the same J in the mean, so that the wall cannot become thinner on one side only: with K_law, a wall that
-/// cannot do so is as stiff as one that can. See docs/theory.md.
+/// See docs/theory.md.
 ///
 /// @param layers          layers through the wall at each particle; 0 in bulk, where E_hat is `shear_wave_modulus`
 /// @param layer_spacings  their distance in m
@@ -183,11 +146,9 @@ template <class P, class S>
                   " particles have a number of layers but ", layer_spacings.size(),
                   " a spacing of layers; give both of each particle");
   const P K = bulk_modulus, mu = shear_modulus;
-  const P bulk_law = 4 * mu * (K + mu / 3) / (K + 4 * mu / 3) - 4 * mu / 3;
   ThinWallStabiliser<P> chosen;
   chosen.moduli.reserve(layers.size());
-  detail::FittedWallModuli<double> wall(static_cast<double>(K / mu));
-  double law = 0, walls = 0;
+  detail::FittedWalls<double> walls(static_cast<double>(K) / static_cast<double>(mu));
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const double apart = static_cast<double>(layer_spacings[i]) / spacing;
     if (layers[i] == 0) {
@@ -198,14 +159,9 @@ template <class P, class S>
                     " layers; it takes two to bend, and more than eight are bulk (0)");
     detail::require(apart >= 0.6 - 1e-6 && apart <= 1.3, "hmps: the layers at particle ", i, " are ", apart,
                     " spacings apart; give a spacing of which they are 0.6 to 1.3");
-    const detail::WallModuli<double> own = wall(layers[i], apart);
-    chosen.moduli.push_back(static_cast<P>(own.artificial) * mu);
-    law += own.law;
-    ++walls;
+    chosen.moduli.push_back(static_cast<P>(walls.add(layers[i], apart)) * mu);
   }
-  // Of layers much closer than a spacing the sums would ask for less than none.
-  const P asked = walls > 0 ? static_cast<P>(law / walls) * mu : bulk_law;
-  chosen.bulk.law = std::min(K, std::max(asked, bulk_law / 2));
+  chosen.bulk.law = std::min(K, static_cast<P>(walls.law()) * mu);
   chosen.bulk.mean = K - chosen.bulk.law;
   return chosen;
 }

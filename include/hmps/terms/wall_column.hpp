@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "hmps/bonds/weight.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps::inline HMPS_ABI::detail {
+
+/// Energies of a flat wall that is twisted, or bent in plane strain, by a curvature of one: of one particle in each
+/// layer, in the mean over the particles of the layer. Lengths are in spacings, moduli over the shear modulus.
+template <class Real>
+class WallColumn {
+ public:
+  static constexpr int most_layers = 8;
+
+  /// `fill` is called with a function add(layer, weight, visit) that it calls for the particles of the wall. Their
+  /// weights sum to one in each layer. `visit(bond)` calls bond(r, height, other) for every neighbour: the vector to
+  /// it, its height over the middle of the wall, and its layer.
+  template <class Fill>
+  WallColumn(int layers, Real apart, const Fill& fill) : layers_(layers), apart_(apart) {
+    const Form zero = Form::Zero(layers, layers);
+    shear_ = volume_ = misfit_ = bonds_ = traces_ = zero;
+    fill([this](int layer, Real weight, const auto& visit) { this->add(layer, weight, visit); });
+    take_means();
+  }
+
+  /// The energy of twist over the exact one, kappa^2 t^2 / 6 per volume, with `artificial` for E_hat.
+  [[nodiscard]] Real twist(Real artificial) const {
+    return (twist_strain_ + artificial * twist_misfit_) / (cube() / 3);
+  }
+  /// E_hat with which that is one.
+  [[nodiscard]] Real artificial() const { return (cube() / 3 - twist_strain_) / twist_misfit_; }
+
+  /// The energy of bending over the exact one, E / (1 - nu^2) kappa^2 t^2 / 24 per volume, with the bulk modulus `law`
+  /// of the law and `mean` of the mean dilatation, taken twice. Layers are free to move across the wall.
+  [[nodiscard]] Real bending(Real artificial, Real law, Real mean) const {
+    const Real bulk = law + mean, plate = 4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3);
+    const Form all = shear_ + law * volume_ + artificial * misfit_ + mean * mean_;
+    const int free = layers_ - 1;
+    const Form q = all.topRightCorner(1, free).transpose();
+    const Real released = q.cwiseProduct(Form(all.bottomRightCorner(free, free).llt().solve(q))).sum();
+    return (all(0, 0) - released) / (plate * cube() / 24);
+  }
+
+ private:
+  /// Row and column 0 belong to the bending, k to a displacement of layer k across the wall by one.
+  using Form = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_layers, most_layers>;
+  using Matrix3 = Matrix<Real, 3>;
+  using Vector3 = Vector<Real, 3>;
+
+  [[nodiscard]] Real cube() const { return std::pow(Real(layers_), 3) * apart_ * apart_; }
+
+  template <class Visit>
+  void add(int layer, Real weight, const Visit& visit) {
+    Matrix3 A = Matrix3::Zero();
+    std::array<Matrix3, 2> B_twist{A, A};  // of two twists, the second turned by 45 degrees
+    std::array<Real, 2> square_twist{0, 0};
+    std::array<Matrix3, std::size_t{most_layers}> B;
+    B.fill(A);
+    Form squares = Form::Zero(layers_, layers_);
+    visit([&](const Vector3& r, Real height, int other) {
+      const Real w = PaperWeight{}(r.norm(), Real(paper_radius_ratio));
+      if (!(w > 0)) return;
+      A += w * r * r.transpose();
+      const std::array<Vector3, 2> twist{Vector3(-r[1] * height, -r[0] * height, r[0] * r[1]),
+                                         Vector3(-r[0] * height, r[1] * height, (r[0] * r[0] - r[1] * r[1]) / 2)};
+      for (std::size_t m = 0; m < 2; ++m) {
+        B_twist[m] += w * twist[m] * r.transpose();
+        square_twist[m] += w * twist[m].squaredNorm();
+      }
+      bonds_(layer, other) += weight;
+      for (int a = 0; a < layers_; ++a) {
+        const Vector3 u = displacement(a, r, height, layer, other);
+        B[static_cast<std::size_t>(a)] += w * u * r.transpose();
+        for (int b = 0; b < layers_; ++b) squares(a, b) += w * u.dot(displacement(b, r, height, layer, other));
+      }
+    });
+    bonds_(layer, layer) += weight;  // a mean dilatation is that of the particle and its neighbours
+    const Matrix3 inverse = A.inverse();
+    const Real misfit = weight * Real(1.5) / A.trace();
+    for (std::size_t m = 0; m < 2; ++m) {
+      const Matrix3 G = B_twist[m] * inverse;
+      twist_strain_ += weight * (G + G.transpose()).squaredNorm() / 4;
+      twist_misfit_ += misfit * (square_twist[m] - G.cwiseProduct(B_twist[m]).sum());
+    }
+    std::array<Matrix3, std::size_t{most_layers}> G;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(layers_); ++a) G[a] = B[a] * inverse;
+    for (int a = 0; a < layers_; ++a) {
+      const Matrix3& Ga = G[static_cast<std::size_t>(a)];
+      traces_(layer, a) += weight * Ga.trace();
+      for (int b = 0; b < layers_; ++b) {
+        const Matrix3& Gb = G[static_cast<std::size_t>(b)];
+        const Real traces = Ga.trace() * Gb.trace();
+        shear_(a, b) += weight * ((Ga + Ga.transpose()).cwiseProduct(Gb + Gb.transpose()).sum() / 4 - traces / 3);
+        volume_(a, b) += weight * traces / 2;
+        misfit_(a, b) += misfit * (squares(a, b) - Ga.cwiseProduct(B[static_cast<std::size_t>(b)]).sum());
+      }
+    }
+  }
+
+  /// Of a neighbour in layer `other` against a particle of `layer`, in field `a`.
+  [[nodiscard]] static Vector3 displacement(int a, const Vector3& r, Real height, int layer, int other) {
+    if (a == 0) return {-r[0] * height, 0, r[0] * r[0] / 2};
+    return {0, 0, Real((other == a) - (layer == a))};
+  }
+
+  /// The form of the mean dilatation, from the bonds between the layers, as `MeanDilatation` takes its means.
+  void take_means() {
+    Form d = Form::Ones(layers_, 1);
+    constexpr int enough = 200;
+    for (int k = 0; k < enough; ++k) d = d.cwiseQuotient(Form(bonds_ * d)).cwiseSqrt().eval();
+    const Form mean = d.asDiagonal() * bonds_ * d.asDiagonal();
+    const Form dilatation = mean * mean * traces_;
+    mean_ = dilatation.transpose() * dilatation / 2;
+  }
+
+  int layers_;
+  Real apart_;
+  Real twist_strain_ = 0, twist_misfit_ = 0;
+  Form shear_, volume_, misfit_, mean_;
+  Form bonds_;   // how many neighbours a particle of a layer has in another
+  Form traces_;  // of the displacement gradient, by layer and field
+};
+
+/// The column of hexagonal layers, `apart` spacings apart, each over the hollows of the next, whose particles stand
+/// `disorder` of the distance of the sites from them: the standard deviation along both axes.
+template <class Real>
+[[nodiscard]] WallColumn<Real> hexagonal_column(int layers, Real apart, Real disorder) {
+  constexpr int samples = 400;
+  const Real side = std::sqrt(2 / (std::sqrt(Real(3)) * apart)), rise = side * std::sqrt(Real(0.75));
+  const Real by = disorder * std::sqrt(Real(12)) * side, first = std::sqrt(Real(2)), second = std::sqrt(Real(3));
+  Real drawn = 0;
+  // From -1/2 to 1/2; the parts of quadratic sequences behind the point are spread evenly, and independently in pairs.
+  const auto off = [&](Real root) { return drawn * drawn * root - std::floor(drawn * drawn * root) - Real(0.5); };
+  const auto moved = [&](Real x, Real y, Real z) {
+    ++drawn;
+    return Vector<Real, 3>(x * side + by * off(first), y * rise + by * off(second), z);
+  };
+  return WallColumn<Real>(layers, apart, [&](const auto& add) {
+    for (int layer = 0; layer < layers; ++layer)
+      for (int sample = 0; sample < samples; ++sample) {
+        const Vector<Real, 3> own = moved(0, 0, 0);
+        add(layer, Real(1) / samples, [&](const auto& bond) {
+          for (int other = 0; other < layers; ++other) {
+            const Real height = (other + (Real(1) - layers) / 2) * apart, hollow = Real(other % 2 - layer % 2);
+            for (int p = -4; p <= 4; ++p)
+              for (int q = -3; q <= 3; ++q)
+                if (other != layer || p != 0 || q != 0)
+                  bond(moved(p + (q + hollow) / 2, q + hollow / 3, (other - layer) * apart) - own, height, other);
+          }
+        });
+      }
+  });
+}
+
+}  // namespace hmps::inline HMPS_ABI::detail
