@@ -41,7 +41,11 @@ constexpr double pinched = 0.1907, blown = 0.01275;
     return fit_where_it_lies(at, hollow, {Vector(-outer, -outer, from), Vector(outer, outer, to)}, l0);
   };
   FittedBody body(l0, {part(l0 / 2, outer), part(-held, l0 / 2)}, Choice::thin_wall, layers, material());
-  return body.gives_way(at, {.pattern = [](const Vector& x) -> Vector { return x.normalized(); }, .size = 1e4});
+  const double moved =
+      body.gives_way(at, {.pattern = [](const Vector& x) { return Vector(x.normalized()); }, .size = 1e4});
+  // The mean over the half ball, of which the half layer of held particles on this side of the rim is a part.
+  const double volume = 2 * std::numbers::pi / 3 * (std::pow(radius + wall / 2, 3) - std::pow(radius - wall / 2, 3));
+  return moved * static_cast<double>(body.moving()) * std::pow(l0, 3) / volume;
 }
 
 }  // namespace
