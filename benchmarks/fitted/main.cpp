@@ -13,9 +13,10 @@ int main(int argc, char** argv) {
   std::vector<double> spacings{2.4, 1.8, 1.6, 1.2};
   std::vector<std::string> chosen;
   study.app.add_option("spacings", spacings, "of the plates, in mm")->capture_default_str();
-  study.app.add_option("--only", chosen, "tables to make anew: plate, any, ring, bar, bend")
+  study.app.add_option("--only", chosen, "tables to make anew")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"plate", "any", "ring", "bar", "bend"}));
+      ->check(CLI::IsMember(
+          {"plate", "any", "ring", "bar", "bend", "half-cylinder", "half-ball", "strip", "wedge", "junction"}));
   return study.run(argc, argv, [&] {
     if (study.quick) spacings = {2.4};
     for (double& spacing : spacings) spacing *= 1e-3;
@@ -27,5 +28,10 @@ int main(int argc, char** argv) {
     if (wanted("ring")) study.publish(fitted::pinched_ring(study.quick));
     if (wanted("bar")) study.publish(fitted::twisted_bar(study.quick));
     if (wanted("bend")) study.publish(fitted::bent_strip(study.quick));
+    if (wanted("half-cylinder")) study.publish(fitted::half_cylinder(study.quick));
+    if (wanted("half-ball")) study.publish(fitted::half_ball(study.quick));
+    if (wanted("strip")) study.publish(fitted::twisted_strip(study.quick));
+    if (wanted("wedge")) study.publish(fitted::wedge(study.quick));
+    if (wanted("junction")) study.publish(fitted::junction(study.quick));
   });
 }

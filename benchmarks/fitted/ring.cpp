@@ -13,8 +13,7 @@ constexpr double radius = 24e-3, wall = 4.8e-3, width = 14.4e-3;  // m, the radi
 constexpr double load = 1000;                                     // N/m3 in the middle of the wall
 constexpr double answer = 0.2151;                                 // mm, by finite elements (C3D20R of CalculiX)
 
-/// How far the ring is squeezed, in mm: A of the displacement A (x, 0, -z) / R, by least squares. The load is in
-/// proportion to the same, so that A is its work but for a factor.
+/// How far the ring is squeezed, in mm: A of the displacement A (x, 0, -z) / R, by least squares.
 [[nodiscard]] double squeeze(const Placement& at, double spacing) {
   const auto tube = [](const Vector& x) {
     const double across = std::abs(std::hypot(x[0], x[2]) - radius) - wall / 2, along = std::abs(x[1]) - width / 2;
@@ -23,31 +22,8 @@ constexpr double answer = 0.2151;                                 // mm, by fini
   const Vector reach = Vector::Constant(0.032);
   const Piece ring = hmps::fit_particles(at.placed(tube), hmps::Box<double, 3>{-reach, reach}, spacing);
   FittedBody body(spacing, {ring}, Choice::thin_wall, 0, hmps::MooneyRivlin<>::from_young(100e3, 1e6));
-  std::vector<Vector> pattern;
-  Vector sum = Vector::Zero(), moment = Vector::Zero(), middle = Vector::Zero();
-  for (std::size_t i = 0; i < body.moving(); ++i) middle += body.reference(i) / static_cast<double>(body.moving());
-  hmps::Matrix<double, 3> inertia = hmps::Matrix<double, 3>::Zero();
-  for (std::size_t i = 0; i < body.moving(); ++i) {
-    const Vector X = at.local(body.reference(i)), arm = body.reference(i) - middle;
-    pattern.emplace_back(at.direction(Vector(X[0], 0, -X[2]) / radius));
-    sum += pattern.back();
-    moment += arm.cross(pattern.back());
-    inertia += arm.squaredNorm() * hmps::Matrix<double, 3>::Identity() - arm * arm.transpose();
-  }
-  // Particles are not quite symmetric: without this the free ring would drift and turn.
-  const Vector turn = inertia.ldlt().solve(moment);
-  double total = 0;
-  for (std::size_t i = 0; i < body.moving(); ++i) {
-    pattern[i] -= sum / static_cast<double>(body.moving()) + turn.cross(body.reference(i) - middle);
-    total += load * pattern[i].norm() * std::pow(spacing, 3);
-  }
-  body.settle([&](std::size_t i) -> Vector { return load * pattern[i]; }, total, 1e-3);
-  double along = 0, squares = 0;
-  for (std::size_t i = 0; i < body.moving(); ++i) {
-    along += body.displacement(i).dot(pattern[i]);
-    squares += pattern[i].squaredNorm();
-  }
-  return 1e3 * along / squares;
+  const auto pattern = [](const Vector& x) -> Vector { return {x[0] / radius, 0, -x[2] / radius}; };
+  return body.gives_way(at, {.pattern = pattern, .size = load, .of_free_body = true});
 }
 
 }  // namespace

@@ -10,6 +10,25 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace {
+
+/// Takes the mean and the moment from a pattern, so that a free body neither drifts nor turns.
+void balance(std::vector<Vector>& pattern, const std::vector<Vector>& places) {
+  const auto count = static_cast<double>(pattern.size());
+  Vector sum = Vector::Zero(), moment = Vector::Zero(), middle = Vector::Zero();
+  for (std::size_t i = 0; i < pattern.size(); ++i) middle += places[i] / count;
+  hmps::Matrix<double, 3> inertia = hmps::Matrix<double, 3>::Zero();
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const Vector arm = places[i] - middle;
+    sum += pattern[i];
+    moment += arm.cross(pattern[i]);
+    inertia += arm.squaredNorm() * hmps::Matrix<double, 3>::Identity() - arm * arm.transpose();
+  }
+  const Vector turn = inertia.ldlt().solve(moment);
+  for (std::size_t i = 0; i < pattern.size(); ++i) pattern[i] -= sum / count + turn.cross(places[i] - middle);
+}
+
+}  // namespace
 
 Placement tilted(double degrees, const Vector& by) {
   const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
@@ -97,6 +116,64 @@ void FittedBody::settle_held(const std::function<void(const hmps::VectorView<dou
               {.spacing = body_.spacing, .tolerance = tolerance, .load = total});
 }
 
+void FittedBody::yield_linearly(const std::function<Vector(std::size_t)>& load, double total, double tolerance) {
+  const auto dot = [](const std::vector<Vector>& a, const std::vector<Vector>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+    return sum;
+  };
+  std::vector<Vector> moved(moving_, Vector::Zero()), left, along;
+  for (std::size_t i = 0; i < moving_; ++i) left.push_back(load(i));
+  along = left;
+  double squares = dot(left, left);
+  constexpr int most_iterations = 100'000;
+  for (int iteration = 0;; ++iteration) {
+    double unbalanced = 0, longest = 0;
+    for (std::size_t i = 0; i < moving_; ++i) {
+      unbalanced += left[i].norm() * body_.volume();
+      longest = std::max(longest, along[i].norm());
+    }
+    if (unbalanced <= tolerance * total) break;
+    if (iteration == most_iterations) throw hmps::StateError("a body does not come to rest under a small load");
+    // The derivative of the forces, over a way on which they are linear and yet far above what is rounded off.
+    const double step = 1e-6 * body_.spacing / longest;
+    for (std::size_t i = 0; i < moving_; ++i) body_.position[i] = body_.reference[i] + step * along[i];
+    const std::vector<Vector>& forces = internal_forces();
+    double stiffness = 0;
+    for (std::size_t i = 0; i < moving_; ++i) stiffness -= along[i].dot(forces[i]) / step;
+    const double by = squares / stiffness;
+    for (std::size_t i = 0; i < moving_; ++i) {
+      moved[i] += by * along[i];
+      left[i] += by / step * forces[i];
+    }
+    const double before = std::exchange(squares, dot(left, left));
+    for (std::size_t i = 0; i < moving_; ++i) along[i] = left[i] + squares / before * along[i];
+  }
+  for (std::size_t i = 0; i < moving_; ++i) body_.position[i] = body_.reference[i] + moved[i];
+}
+
+double FittedBody::gives_way(const Placement& at, const PatternLoad& load, const std::vector<double>& volumes) {
+  std::vector<Vector> pattern;
+  for (std::size_t i = 0; i < moving_; ++i) pattern.emplace_back(at.direction(load.pattern(at.local(reference(i)))));
+  if (load.of_free_body) balance(pattern, body_.reference);
+  const double cube = body_.volume();
+  const auto share = [&](std::size_t i) { return volumes.empty() ? 1.0 : volumes[i] / cube; };
+  double total = 0;
+  for (std::size_t i = 0; i < moving_; ++i) total += load.size * share(i) * pattern[i].norm() * cube;
+  const auto loads = [&](std::size_t i) {
+    Vector of = Vector::Zero();
+    if (i < moving_) of = load.size * share(i) * pattern[i];
+    return of;
+  };
+  yield_linearly(loads, total, 1e-3);
+  double along = 0, squares = 0;
+  for (std::size_t i = 0; i < moving_; ++i) {
+    along += share(i) * displacement(i).dot(pattern[i]);
+    squares += share(i) * pattern[i].squaredNorm();
+  }
+  return 1e3 * along / squares;
+}
+
 const std::vector<Vector>& FittedBody::internal_forces() {
   body_.velocity.assign(body_.size(), Vector::Zero());
   body_.unload();
@@ -138,6 +215,27 @@ Spread spread(const std::vector<double>& values) {
   for (const double value : values) squares += (value - mean) * (value - mean);
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return {mean, std::sqrt(squares / static_cast<double>(values.size())) / mean, *least, *most};
+}
+
+report::Table compared(const Comparison& with, bool quick) {
+  using report::places;
+  report::Table table{.name = with.name,
+                      .header = {"layers", "placements", with.measured, "from to", "scatter", "error"}};
+  for (std::size_t k = 0; k < (quick ? 1 : with.layers.size()); ++k) {
+    const int layers = with.layers[k];
+    std::vector<double> found;
+    for (const Placement& at : any_placements(quick ? 1 : with.placements[k], with.spacing(layers)))
+      found.push_back(with.measure(at, layers));
+    const Spread by = spread(found);
+    const double error = by.mean / with.answer - 1;
+    table.rows.push_back({std::to_string(layers), std::to_string(found.size()), places(by.mean, with.digits),
+                          places(by.least, with.digits) + " to " + places(by.most, with.digits),
+                          places(100 * by.scatter, 1) + " %", percent(error)});
+    const std::string which = with.of + " of " + std::to_string(layers) + " layers ";
+    table.check(std::abs(error) < with.bound(layers), which + "misses its bound");
+    table.check(by.scatter < 0.02, which + "depends on how it lies");
+  }
+  return table;
 }
 
 std::string percent(double share) {

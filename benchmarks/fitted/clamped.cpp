@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Clamped bodies of plates in any direction: a strip whose ends are turned, a wedge, and a plate on a web. As that of
+// plate.cpp, a clamped face goes through the middle of the outermost held particles.
+#include <algorithm>
+#include <cmath>
+
+#include "fitted/scene.hpp"
+#include "report/text.hpp"
+
+namespace fitted {
+namespace {
+
+constexpr double wall = 4.8e-3, held = 6e-3;  // m
+using Box = hmps::Box<double, 3>;
+
+// By references/bodies.py. strip 1 to 5: 5.9159, 5.7891, 5.7774, 5.7736, 5.7719 uN m. wedge 2 to 5: 0.33284, 0.33261,
+// 0.33274, 0.33285 mm. junction 1 to 5: 0.24379, 0.25101, 0.25218, 0.25256, 0.25273 mm.
+constexpr double torque = 5.771e-6;                               // N m
+constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
+
+[[nodiscard]] hmps::MooneyRivlin<> material() { return hmps::MooneyRivlin<>::from_young(100e3, 1e6); }
+[[nodiscard]] double spacing_of(int layers) { return wall / layers; }
+
+/// The torque in uN m of a strip of 72 x 18 mm along x and y, whose one end is turned about x.
+[[nodiscard]] double turned_strip(const Placement& at, int layers) {
+  constexpr double length = 72e-3, width = 18e-3, angle = 0.02;
+  const double l0 = spacing_of(layers), clamp = length / 2 - l0 / 2;
+  const auto part = [&](double from, double to) {
+    const Box box{Vector(from, -width / 2, -wall / 2), Vector(to, width / 2, wall / 2)};
+    return fit_where_it_lies(at, box, box, l0);
+  };
+  const Piece middle = part(-clamp, clamp), fixed = part(-length / 2 - held, -clamp),
+              turned = part(clamp, length / 2 + held);
+  FittedBody body(l0, {middle, fixed, turned}, Choice::thin_wall, layers, material());
+  const std::size_t first_turned = middle.size() + fixed.size(), all = first_turned + turned.size();
+  for (std::size_t i = 0; i < all; ++i) {
+    const Vector X = at.local(body.reference(i));
+    const double by = angle * std::clamp(X[0] / length + 0.5, 0.0, 1.0);
+    if (i < middle.size() || i >= first_turned)
+      body.place(i, body.reference(i) + at.direction(by * Vector(0, -X[2], X[1])));
+  }
+  body.settle([](std::size_t) -> Vector { return Vector::Zero(); }, torque / wall, 1e-3);
+  const std::vector<Vector>& forces = body.internal_forces();
+  Vector sum = Vector::Zero();
+  for (std::size_t i = first_turned; i < all; ++i)
+    sum += std::pow(l0, 3) * (body.position(i) - at.moved).cross(forces[i]);
+  return -1e6 * sum.dot(at.direction(Vector(1, 0, 0)));
+}
+
+/// How far a wedge gives way, in mm. Its edge is too thin for particles, so that each carries its volume.
+[[nodiscard]] double press_wedge(const Placement& at, int layers) {
+  constexpr double length = 36e-3, width = 24e-3, thin = 1.2e-3, loaded = 12e-3;
+  const double l0 = spacing_of(layers), slope = (wall - thin) / (2 * length);
+  const auto tapered = [=](const Vector& x) {
+    return std::max(std::abs(x[2]) - wall / 2, (std::abs(x[2]) - wall / 2 + slope * x[0]) / std::hypot(1, slope));
+  };
+  const auto part = [&](double from, double to) {
+    return fit_where_it_lies(at, tapered, {Vector(from, -width / 2, -wall), Vector(to, width / 2, wall)}, l0);
+  };
+  const Piece moving = part(l0 / 2, length);
+  FittedBody body(l0, {moving, part(-held, l0 / 2)}, Choice::thin_wall, layers, material());
+  const auto pattern = [](const Vector& x) -> Vector { return {0, 0, -std::max(0.0, 1 - (length - x[0]) / loaded)}; };
+  return body.gives_way(at, {.pattern = pattern, .size = 1000}, moving.volumes);
+}
+
+/// How far a plate on a web gives way to a load on one of its arms, in mm.
+[[nodiscard]] double press_arm(const Placement& at, int layers) {
+  constexpr double arm = 21.6e-3, height = 24e-3, width = 24e-3;
+  const double l0 = spacing_of(layers);
+  const auto united = hmps::unite(Box{Vector(-arm, -width / 2, -wall / 2), Vector(arm, width / 2, wall / 2)},
+                                  Box{Vector(-wall / 2, -width / 2, -2 * height), Vector(wall / 2, width / 2, 0)});
+  const auto part = [&](double from, double to) {
+    return fit_where_it_lies(at, united, {Vector(-arm - l0, -width / 2, from), Vector(arm + l0, width / 2, to)}, l0);
+  };
+  const double clamp = l0 / 2 - height;
+  FittedBody body(l0, {part(clamp, wall / 2 + l0), part(-height - held, clamp)}, Choice::thin_wall, layers, material());
+  const auto pattern = [](const Vector& x) -> Vector { return {0, 0, -std::max(0.0, x[0]) / arm}; };
+  return body.gives_way(at, {.pattern = pattern, .size = 600});
+}
+
+}  // namespace
+
+report::Table twisted_strip(bool quick) {
+  return compared({.name = "strip",
+                   .of = "the strip",
+                   .measured = "torque (uN m)",
+                   .answer = 1e6 * torque,
+                   .digits = 3,
+                   .layers = {2, 3, 4},
+                   .placements = {6, 4, 3},
+                   .measure = turned_strip,
+                   .spacing = spacing_of},
+                  quick);
+}
+
+report::Table wedge(bool quick) {
+  return compared({.name = "wedge",
+                   .of = "the wedge",
+                   .measured = "gives way by (mm)",
+                   .answer = wedge_answer,
+                   .digits = 3,
+                   .layers = {4},
+                   .placements = {6},
+                   .measure = press_wedge,
+                   .spacing = spacing_of,
+                   .bound = [](int) { return 0.06; }},
+                  quick);
+}
+
+report::Table junction(bool quick) {
+  return compared({.name = "junction",
+                   .of = "the junction",
+                   .measured = "gives way by (mm)",
+                   .answer = junction_answer,
+                   .digits = 4,
+                   .layers = {2, 3, 4},
+                   .placements = {6, 4, 3},
+                   .measure = press_arm,
+                   .spacing = spacing_of},
+                  quick);
+}
+
+}  // namespace fitted
