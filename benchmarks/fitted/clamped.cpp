@@ -100,7 +100,7 @@ report::Table wedge(bool quick) {
                    .answer = wedge_answer,
                    .digits = 3,
                    .layers = {4},
-                   .placements = {6},
+                   .placements = {4},
                    .measure = press_wedge,
                    .spacing = spacing_of,
                    .bound = [](int) { return 0.06; }},

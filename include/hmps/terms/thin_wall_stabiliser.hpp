@@ -69,8 +69,9 @@ class FittedWalls {
   static constexpr Real closest = Real(0.6), step = Real(0.05);
   /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
   static constexpr Real disorder = Real(0.14);
-  /// What an e-fold of the law is worth as an error of the energy.
-  static constexpr Real reluctance = Real(0.02);
+  /// What an e-fold of the law is worth as an error of the energy: with more than it needs, the law resists changes of J
+  /// from particle to particle in all else than bending.
+  static constexpr Real reluctance = Real(0.05);
 
   struct Node {
     WallColumn<Real> column;
@@ -94,8 +95,9 @@ class FittedWalls {
     const Real law = std::exp(logarithm), change = reluctance * (logarithm - std::log(bulk_law_));
     Real sum = 0, particles = 0;
     for (const auto& [key, node] : known_) {
-      const Real error = node.column.bending(node.artificial, law, bulk_ - law) - 1;
-      sum += node.particles * error * error;
+      const Real plate = node.column.plate(node.artificial, law, bulk_ - law) - 1;
+      const Real strip = node.column.strip(node.artificial, law, bulk_ - law) - 1;
+      sum += node.particles * (plate * plate + strip * strip) / 2;
       particles += node.particles;
     }
     return sum / particles + change * change;

@@ -14,8 +14,8 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Energies of a flat wall that is twisted, or bent in plane strain, by a curvature of one: of one particle in each
-/// layer, in the mean over the particles of the layer. Lengths are in spacings, moduli over the shear modulus.
+/// Energies of a flat wall that is twisted or bent by a curvature of one: of one particle in each layer, in the mean
+/// over the particles of the layer. Lengths are in spacings, moduli over the shear modulus.
 template <class Real>
 class WallColumn {
  public:
@@ -26,8 +26,9 @@ class WallColumn {
   /// it, its height over the middle of the wall, and its layer.
   template <class Fill>
   WallColumn(int layers, Real apart, const Fill& fill) : layers_(layers), apart_(apart) {
-    const Form zero = Form::Zero(layers, layers);
-    shear_ = volume_ = misfit_ = bonds_ = traces_ = zero;
+    shear_ = volume_ = misfit_ = Form::Zero(layers + 1, layers + 1);
+    bonds_ = Form::Zero(layers, layers);
+    traces_ = Form::Zero(layers, layers + 1);
     fill([this](int layer, Real weight, const auto& visit) { this->add(layer, weight, visit); });
     take_means();
   }
@@ -39,33 +40,46 @@ class WallColumn {
   /// E_hat with which that is one.
   [[nodiscard]] Real artificial() const { return (cube() / 3 - twist_strain_) / twist_misfit_; }
 
-  /// The energy of bending over the exact one, E / (1 - nu^2) kappa^2 t^2 / 24 per volume, with the bulk modulus `law`
-  /// of the law and `mean` of the mean dilatation, taken twice. Layers are free to move across the wall.
-  [[nodiscard]] Real bending(Real artificial, Real law, Real mean) const {
-    const Real bulk = law + mean, plate = 4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3);
-    const Form all = shear_ + law * volume_ + artificial * misfit_ + mean * mean_;
-    const int free = layers_ - 1;
-    const Form q = all.topRightCorner(1, free).transpose();
-    const Real released = q.cwiseProduct(Form(all.bottomRightCorner(free, free).llt().solve(q))).sum();
-    return (all(0, 0) - released) / (plate * cube() / 24);
+  /// The energy of bending in plane strain over the exact one, E / (1 - nu^2) kappa^2 t^2 / 24 per volume, with the
+  /// bulk modulus `law` of the law and `mean` of the mean dilatation, taken twice. Layers are free to move across the
+  /// wall.
+  [[nodiscard]] Real plate(Real artificial, Real law, Real mean) const {
+    const Real bulk = law + mean, modulus = 4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3);
+    return released(form(artificial, law, mean), layers_ - 1) / (modulus * cube() / 24);
+  }
+  /// The same for a strip, which is also free to bend across: the exact energy is E kappa^2 t^2 / 24 per volume.
+  [[nodiscard]] Real strip(Real artificial, Real law, Real mean) const {
+    const Real bulk = law + mean, modulus = 9 * bulk / (3 * bulk + 1);
+    return released(form(artificial, law, mean), layers_) / (modulus * cube() / 24);
   }
 
  private:
-  /// Row and column 0 belong to the bending, k to a displacement of layer k across the wall by one.
-  using Form = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_layers, most_layers>;
+  /// Row and column 0 belong to the bending, k to a displacement of layer k across the wall by one, and the last to a
+  /// bending across, in the opposite sense.
+  static constexpr int most_fields = most_layers + 1;
+  using Form = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_fields, most_fields>;
   using Matrix3 = Matrix<Real, 3>;
   using Vector3 = Vector<Real, 3>;
 
   [[nodiscard]] Real cube() const { return std::pow(Real(layers_), 3) * apart_ * apart_; }
+
+  [[nodiscard]] Form form(Real artificial, Real law, Real mean) const {
+    return shear_ + law * volume_ + artificial * misfit_ + mean * mean_;
+  }
+  /// The least energy of the bending with the next `free` fields.
+  [[nodiscard]] static Real released(const Form& all, int free) {
+    const Form q = all.block(1, 0, free, 1);
+    return all(0, 0) - q.cwiseProduct(Form(all.block(1, 1, free, free).llt().solve(q))).sum();
+  }
 
   template <class Visit>
   void add(int layer, Real weight, const Visit& visit) {
     Matrix3 A = Matrix3::Zero();
     std::array<Matrix3, 2> B_twist{A, A};  // of two twists, the second turned by 45 degrees
     std::array<Real, 2> square_twist{0, 0};
-    std::array<Matrix3, std::size_t{most_layers}> B;
+    std::array<Matrix3, std::size_t{most_fields}> B;
     B.fill(A);
-    Form squares = Form::Zero(layers_, layers_);
+    Form squares = Form::Zero(layers_ + 1, layers_ + 1);
     visit([&](const Vector3& r, Real height, int other) {
       const Real w = PaperWeight{}(r.norm(), Real(paper_radius_ratio));
       if (!(w > 0)) return;
@@ -77,10 +91,10 @@ class WallColumn {
         square_twist[m] += w * twist[m].squaredNorm();
       }
       bonds_(layer, other) += weight;
-      for (int a = 0; a < layers_; ++a) {
+      for (int a = 0; a <= layers_; ++a) {
         const Vector3 u = displacement(a, r, height, layer, other);
         B[static_cast<std::size_t>(a)] += w * u * r.transpose();
-        for (int b = 0; b < layers_; ++b) squares(a, b) += w * u.dot(displacement(b, r, height, layer, other));
+        for (int b = 0; b <= layers_; ++b) squares(a, b) += w * u.dot(displacement(b, r, height, layer, other));
       }
     });
     bonds_(layer, layer) += weight;  // a mean dilatation is that of the particle and its neighbours
@@ -91,12 +105,12 @@ class WallColumn {
       twist_strain_ += weight * (G + G.transpose()).squaredNorm() / 4;
       twist_misfit_ += misfit * (square_twist[m] - G.cwiseProduct(B_twist[m]).sum());
     }
-    std::array<Matrix3, std::size_t{most_layers}> G;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(layers_); ++a) G[a] = B[a] * inverse;
-    for (int a = 0; a < layers_; ++a) {
+    std::array<Matrix3, std::size_t{most_fields}> G;
+    for (std::size_t a = 0; a <= static_cast<std::size_t>(layers_); ++a) G[a] = B[a] * inverse;
+    for (int a = 0; a <= layers_; ++a) {
       const Matrix3& Ga = G[static_cast<std::size_t>(a)];
       traces_(layer, a) += weight * Ga.trace();
-      for (int b = 0; b < layers_; ++b) {
+      for (int b = 0; b <= layers_; ++b) {
         const Matrix3& Gb = G[static_cast<std::size_t>(b)];
         const Real traces = Ga.trace() * Gb.trace();
         shear_(a, b) += weight * ((Ga + Ga.transpose()).cwiseProduct(Gb + Gb.transpose()).sum() / 4 - traces / 3);
@@ -107,8 +121,9 @@ class WallColumn {
   }
 
   /// Of a neighbour in layer `other` against a particle of `layer`, in field `a`.
-  [[nodiscard]] static Vector3 displacement(int a, const Vector3& r, Real height, int layer, int other) {
+  [[nodiscard]] Vector3 displacement(int a, const Vector3& r, Real height, int layer, int other) const {
     if (a == 0) return {-r[0] * height, 0, r[0] * r[0] / 2};
+    if (a == layers_) return {0, r[1] * height, -r[1] * r[1] / 2};
     return {0, 0, Real((other == a) - (layer == a))};
   }
 

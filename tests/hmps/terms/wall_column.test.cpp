@@ -39,10 +39,19 @@ TEST(WallColumn, TwistsRightWithItsOwnModulus) {
 TEST(WallColumn, ReleasesTheThickness) {
   const auto ratio = [](int layers) {
     const auto column = hexagonal_column(layers, 1.0, 0.0);
-    return column.bending(1.5, 15, 45) / column.bending(1.5, 5, 55);
+    return column.plate(1.5, 15, 45) / column.plate(1.5, 5, 55);
   };
   EXPECT_GT(ratio(2), 2);
   EXPECT_LT(ratio(3), 1.15);
+}
+
+// With Poisson's ratio zero a strip bends as in plane strain; a strip of what keeps its volume is softer than a plate.
+TEST(WallColumn, BendsStripsAcross) {
+  const auto column = hexagonal_column(6, 1.0, 0.14);
+  const double artificial = column.artificial();
+  EXPECT_NEAR(column.strip(artificial, 2.0 / 3, 0), column.plate(artificial, 2.0 / 3, 0), 1e-3);
+  EXPECT_NEAR(column.strip(artificial, 2.65, 57.35), 1, 0.02);
+  EXPECT_NEAR(column.plate(artificial, 2.65, 57.35), 1, 0.02);
 }
 
 // The layers that fit_particles makes, summed from their own bonds, are those of the disordered column: hexagonal
@@ -79,10 +88,11 @@ TEST(WallColumn, IsThatOfFittedParticles) {
     });
     const auto column = hexagonal_column(layers, apart, 0.14);
     EXPECT_NEAR(own.twist(column.artificial()), 1, 0.015) << layers;
-    for (const double law : {2.0, 4.0})
-      EXPECT_NEAR(own.bending(column.artificial(), law, bulk - law),
-                  column.bending(column.artificial(), law, bulk - law), 0.03)
-          << layers;
+    for (const double law : {2.0, 4.0}) {
+      const double artificial = column.artificial(), rest = bulk - law;
+      EXPECT_NEAR(own.plate(artificial, law, rest), column.plate(artificial, law, rest), 0.03) << layers;
+      EXPECT_NEAR(own.strip(artificial, law, rest), column.strip(artificial, law, rest), 0.03) << layers;
+    }
   }
 }
 
