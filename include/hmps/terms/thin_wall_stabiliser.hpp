@@ -120,9 +120,9 @@ class FittedWalls {
 /// The choice is derived, not calibrated on bodies. A wall of thickness t with the twist kappa has the energy
 /// mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial,
 /// equal to it for hexagonal layers in which each particle lies over a hollow of the next layer, with as much disorder
-/// as `fit_particles` leaves. Of the bulk modulus the law keeps what makes the energy of the same layers right when
-/// they are bent in plane strain, in the mean over the particles of walls; the mean dilatation has the rest. In bulk,
-/// and about where bending does not depend on it, the law keeps
+/// as `fit_particles` leaves. Of the bulk modulus the law keeps what makes the energies of the same layers right when
+/// they are bent in plane strain and as a strip, by least squares over the particles of walls; the mean dilatation has
+/// the rest. In bulk, and about where bending does not depend on it, the law keeps
 ///
 ///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 where the volume does not change
 ///
