@@ -69,8 +69,8 @@ class FittedWalls {
   static constexpr Real closest = Real(0.6), step = Real(0.05);
   /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
   static constexpr Real disorder = Real(0.14);
-  /// What an e-fold of the law is worth as an error of the energy: with more than it needs, the law resists changes of J
-  /// from particle to particle in all else than bending.
+  /// What an e-fold of the law is worth as an error of the energy: with more than it needs, the law resists changes of
+  /// J from particle to particle in all else than bending.
   static constexpr Real reluctance = Real(0.05);
 
   struct Node {
