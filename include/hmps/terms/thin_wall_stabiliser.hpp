@@ -159,7 +159,7 @@ template <class P, class S>
     }
     detail::require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
                     " layers; it takes two to bend, and more than eight are bulk (0)");
-    detail::require(apart >= 0.6 - 1e-6 && apart <= 1.3, "hmps: the layers at particle ", i, " are ", apart,
+    detail::require(apart >= 0.6 - 1e-6 && apart <= 1.3 + 1e-6, "hmps: the layers at particle ", i, " are ", apart,
                     " spacings apart; give a spacing of which they are 0.6 to 1.3");
     chosen.moduli.push_back(static_cast<P>(walls.add(layers[i], apart)) * mu);
   }

@@ -76,6 +76,8 @@ TEST(ThinWallStabiliser, WeighsTheWallsOfABody) {
 TEST(ThinWallStabiliser, FollowsTheSpacingOfTheLayers) {
   EXPECT_NEAR(modulus(3, 0.975), (modulus(3, 0.95) + modulus(3, 1)) / 2, 1e-9);
   EXPECT_NEAR(modulus(2, 0.7999999), modulus(2, 0.8000001), 1e-6);
+  EXPECT_NEAR(modulus(3, 1.3), modulus(3, 1.2999999), 1e-6);
+  EXPECT_NEAR(modulus(3, 0.6), modulus(3, 0.6000001), 1e-6);
 }
 
 TEST(ThinWallStabiliser, NamesWhatIsWrong) {
