@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   study.app.add_option("--only", chosen, "tables to make anew")
       ->type_name("NAME")
       ->check(CLI::IsMember(
-          {"plate", "any", "ring", "bar", "bend", "half-cylinder", "half-ball", "strip", "wedge", "junction", "law"}));
+          {"plate", "any", "ring", "bar", "bend", "half-cylinder", "half-ball", "strip", "wedge", "junction"}));
   return study.run(argc, argv, [&] {
     if (study.quick) spacings = {2.4};
     for (double& spacing : spacings) spacing *= 1e-3;
@@ -33,7 +33,6 @@ int main(int argc, char** argv) {
     // Not in a quick run, which is a test: it misses its bound; see the page.
     if (wanted("strip") && !study.quick) study.publish(fitted::twisted_strip(false));
     if (wanted("wedge")) study.publish(fitted::wedge(study.quick));
-    if (wanted("law")) study.publish(fitted::chosen_law(study.quick));
     if (wanted("junction")) study.publish(fitted::junction(study.quick));
   });
 }

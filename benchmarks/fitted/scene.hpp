@@ -140,6 +140,5 @@ struct Comparison {
 [[nodiscard]] report::Table twisted_strip(bool quick);  ///< clamped.cpp
 [[nodiscard]] report::Table wedge(bool quick);
 [[nodiscard]] report::Table junction(bool quick);
-[[nodiscard]] report::Table chosen_law(bool quick);  ///< law.cpp
 
 }  // namespace fitted

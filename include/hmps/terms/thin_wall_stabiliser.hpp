@@ -31,9 +31,6 @@ namespace detail {
 template <class Real>
 class FittedWalls {
  public:
-  /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
-  static constexpr Real disorder = Real(0.14);
-
   /// `bulk`: the bulk modulus over the shear modulus.
   explicit FittedWalls(Real bulk)
       : bulk_(bulk), bulk_law_(4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3) - Real(4) / 3) {}
@@ -70,6 +67,8 @@ class FittedWalls {
 
  private:
   static constexpr Real closest = Real(0.6), step = Real(0.05);
+  /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
+  static constexpr Real disorder = Real(0.14);
   /// What an e-fold of the law is worth as an error of the energy: with more than it needs, the law resists changes of
   /// J from particle to particle in all else than bending.
   static constexpr Real reluctance = Real(0.05);
