@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   study.app.add_option("--only", chosen, "tables to make anew")
       ->type_name("NAME")
       ->check(CLI::IsMember(
-          {"plate", "any", "ring", "bar", "bend", "half-cylinder", "half-ball", "strip", "wedge", "junction"}));
+          {"plate", "any", "ring", "bar", "bend", "half-cylinder", "half-ball", "strip", "wedge", "junction", "leaf"}));
   return study.run(argc, argv, [&] {
     if (study.quick) spacings = {2.4};
     for (double& spacing : spacings) spacing *= 1e-3;
@@ -34,5 +34,6 @@ int main(int argc, char** argv) {
     if (wanted("strip") && !study.quick) study.publish(fitted::twisted_strip(false));
     if (wanted("wedge")) study.publish(fitted::wedge(study.quick));
     if (wanted("junction")) study.publish(fitted::junction(study.quick));
+    if (wanted("leaf")) study.publish(fitted::leaf(study.quick));
   });
 }

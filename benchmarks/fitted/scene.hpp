@@ -140,5 +140,6 @@ struct Comparison {
 [[nodiscard]] report::Table twisted_strip(bool quick);  ///< clamped.cpp
 [[nodiscard]] report::Table wedge(bool quick);
 [[nodiscard]] report::Table junction(bool quick);
+[[nodiscard]] report::Table leaf(bool quick);  ///< leaf.cpp
 
 }  // namespace fitted

@@ -252,6 +252,65 @@ def junction(n):
     return Body(mesh, held, lambda x: (0.0, 0.0, -max(0.0, x[0]) / arm), 600)
 
 
+class Leaf:
+    """The epiglottis of examples/swallowing/scene/anatomy.hpp, whose numbers are its own: mm and radians."""
+
+    LENGTH, RADIUS = 36, 36 / math.radians(14)  # of the midline, which is part of a circle
+
+    @staticmethod
+    def angle(arc):
+        return math.radians(76 - 14 * arc / Leaf.LENGTH)
+
+    @staticmethod
+    def midline(arc):
+        x, z, steps = -10.3, 12.6, 72
+        for k in range(steps):
+            at = Leaf.angle((k + 0.5) / steps * arc)
+            x, z = x + arc / steps * math.cos(at), z + arc / steps * math.sin(at)
+        return x, z
+
+    @staticmethod
+    def half_width(arc):
+        s = arc / (0.6 * Leaf.LENGTH)
+        if s < 1:
+            return 6 + 6 * s * s * (3 - 2 * s)
+        return 12 * math.sqrt(1 - ((arc / Leaf.LENGTH - 0.6) / 0.42) ** 6)
+
+    @staticmethod
+    def arc(x, z):
+        """From the direction to the centre of the circle."""
+        start, (x0, z0) = Leaf.angle(0), Leaf.midline(0)
+        x, z = x - x0 - Leaf.RADIUS * math.sin(start), z - z0 + Leaf.RADIUS * math.cos(start)
+        return Leaf.RADIUS * (start - math.atan2(-x, z))
+
+
+def leaf(n):
+    """Half: the epiglottis of the example of the swallow, clamped 5 mm from its base and loaded along the normal of its
+    tip within 9 mm of that."""
+    clamp, loaded, tip = 5.0, 9.0, Leaf.angle(Leaf.LENGTH)
+    mesh = Mesh()
+
+    def place(u, v, w):
+        arc = clamp + u * (Leaf.LENGTH - clamp)
+        (x, z), y, angle = Leaf.midline(arc), v * Leaf.half_width(arc), Leaf.angle(arc)
+        back = 0.012 * y * y + 1e3 * WALL * (0.5 - w)
+        return (1e-3 * (x + back * math.sin(angle)), 1e-3 * y, 1e-3 * (z - back * math.cos(angle)))
+
+    mesh.block((9 * n, 3 * n, n), place, (to_both, to_last, to_both))
+    (x0, z0), along = Leaf.midline(clamp), (math.cos(Leaf.angle(clamp)), math.sin(Leaf.angle(clamp)))
+
+    def held(x):
+        if is_at((x[0] - 1e-3 * x0) * along[0] + (x[2] - 1e-3 * z0) * along[1], 0):
+            return [(0, 0.0), (1, 0.0), (2, 0.0)]
+        return [(1, 0.0)] if is_at(x[1], 0) else []
+
+    def pattern(x):
+        share = max(0.0, 1 - (Leaf.LENGTH - Leaf.arc(1e3 * x[0], 1e3 * x[2])) / loaded)
+        return (share * math.sin(tip), 0.0, -share * math.cos(tip))
+
+    return Body(mesh, held, pattern, 1000)
+
+
 def write(name, body, forces):
     mesh = body.mesh
     lines = ["*NODE, NSET=ALL"]
@@ -299,7 +358,7 @@ def answer(body, forces, squares, displacements, reactions):
 
 def main():
     bodies = {"half_cylinder": half_cylinder, "half_ball": half_ball, "strip": strip, "wedge": wedge,
-              "junction": junction}
+              "junction": junction, "leaf": leaf}
     if len(sys.argv) < 3 or sys.argv[1] not in bodies:
         sys.exit(f"usage: bodies.py {'|'.join(bodies)} REFINEMENT...")
     for n in map(int, sys.argv[2:]):
