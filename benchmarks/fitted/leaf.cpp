@@ -49,7 +49,8 @@ constexpr double answer = 0.2648;
 
 /// How far the leaf gives way to a load on its tip, in mm.
 [[nodiscard]] double press_tip(const Placement& at, int layers) {
-  const double l0 = spacing_of(layers), face = clamp + 500 * l0;
+  // The outermost held particles lie half a layer behind the cut.
+  const double l0 = spacing_of(layers), face = clamp + wall / layers / 2;
   const auto part = [&](double from, double to) {
     const auto shape = [=](const Vector& x) { return 1e-3 * distance(1e3 * x, from, to); };
     return fit_where_it_lies(at, shape, {Vector(-16e-3, -14e-3, 8e-3), Vector(14e-3, 14e-3, 54e-3)}, l0);
