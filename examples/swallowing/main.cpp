@@ -8,6 +8,7 @@
 #include <future>
 #include <iostream>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,12 +71,18 @@ bool run_cases(const Options& options) {
   one.threads = options.threads / static_cast<int>(workers);
   one.bar = options.bar && workers == 1;
 
+  std::optional<FittedOrgans> fitted;
+  if (options.fitted) {
+    std::cerr << "fitting particles to the organs\n";
+    fitted = fit_organs(options.spacing, options.threads);
+  }
+
   std::atomic<std::size_t> next = 0;
   std::mutex reporting;
   bool all_ended = true;
   const auto work = [&] {
     for (std::size_t k = next++; k < options.cases.size(); k = next++) {
-      const Summary summary = run_case(one, find_case(options.cases[k]));
+      const Summary summary = run_case(one, find_case(options.cases[k]), fitted ? &*fitted : nullptr);
       const std::lock_guard lock(reporting);
       report(summary);
       all_ended = all_ended && !summary.failure;

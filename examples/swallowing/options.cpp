@@ -22,7 +22,7 @@ std::filesystem::path data_folder(const Options& options) {
 std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                                      int& exit_code) {
   Options options;
-  std::string chosen = "all", contact = "smooth", scalar, quality(default_quality.name);
+  std::string chosen = "all", contact = "smooth", particles = "lattice", scalar, quality(default_quality.name);
   bool without_h = false, no_frames = false;
   CLI::App app(
       "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
@@ -86,6 +86,12 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
       ->type_name("NAME")
       ->check(CLI::IsMember({"smooth", "paper"}));
 
+  app.add_option("--particles", particles,
+                 "lattice (default): the sites of a cubic lattice in the organs, stabilised as in the "
+                 "paper; fitted: along the surfaces of the organs, stabilised for thin walls")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"lattice", "fitted"}));
+
   const std::string experiments = "Experiments";
   auto* fixed = number(app.add_option("--penalty", options.penalty, "fixed penalty coefficient k in N/m4"), "K")
                     ->check(within(1e-300, 1e300, "the penalty coefficient must be positive"))
@@ -102,16 +108,20 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
       ->check(within(1e-3, 2, "the share of the stable step must lie between 1e-3 and 2"))
       ->excludes(time_step)
       ->group(experiments);
-  number(app.add_option("--lattice-shift", options.lattice_shift, "shift of the lattice along x and z in spacings"),
-         "P")
-      ->check(within(-1, 1, "the shift of the lattice must lie between -1 and 1 spacings"))
-      ->group(experiments);
+  auto* shift =
+      number(app.add_option("--lattice-shift", options.lattice_shift, "shift of the lattice along x and z in spacings"),
+             "P")
+          ->check(within(-1, 1, "the shift of the lattice must lie between -1 and 1 spacings"))
+          ->group(experiments);
   app.add_flag("--without-H", without_h, "leave out region H, the pharyngeal constrictors")->group(experiments);
 
   exit_code = 0;
   try {
     app.parse(argc, argv);
     if (chosen != "all") options.cases = {chosen};
+    options.fitted = particles == "fitted";
+    if (options.fitted && !shift->empty())
+      throw CLI::ValidationError(shift->get_name(), "fitted particles lie on no lattice that could be shifted");
     if (options.out.empty()) throw CLI::ValidationError("--out", "the output folder needs a name");
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) {

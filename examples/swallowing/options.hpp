@@ -41,6 +41,7 @@ struct Options {
   std::optional<double> penalty;                           ///< fixed k in N/m4, whatever the step
   std::optional<double> penalty_ratio;                     ///< k~ of \paper{25}
   bool single_precision = default_quality.single_precision;
+  bool fitted = false;           ///< particles that are fitted to the organs in place of those of a lattice
   int threads = 0;               ///< at least 1 after parsing: as given, or all cores
   double lattice_shift = 0;      ///< of the particle lattice along x and z, in spacings
   bool constrictors = true;      ///< false: region H is left out

@@ -42,7 +42,7 @@ constexpr double volume_time = 1.667;         // s, when the paper states det F
 template <class S>
 class Run {
  public:
-  Run(const Options& options, const Case& chosen)
+  Run(const Options& options, const Case& chosen, const FittedOrgans* fitted)
       : options_(options),
         chosen_(chosen),
         friction_(options.friction.value_or(chosen.friction)),
@@ -55,7 +55,8 @@ class Run {
                            .model = chosen.model,
                            .constrictors = options.constrictors,
                            .drawn_surfaces = !options.paper_contact,
-                           .data = data_})),
+                           .data = data_,
+                           .fitted = fitted})),
         simulation_(scene_, motion_, materials_,
                     {.friction = friction_,
                      .time_step = options.time_step,
@@ -322,9 +323,9 @@ class Run {
 
 }  // namespace
 
-Summary run_case(const Options& options, const Case& chosen) {
-  if (options.single_precision) return Run<float>(options, chosen)();
-  return Run<double>(options, chosen)();
+Summary run_case(const Options& options, const Case& chosen, const FittedOrgans* fitted) {
+  if (options.single_precision) return Run<float>(options, chosen, fitted)();
+  return Run<double>(options, chosen, fitted)();
 }
 
 }  // namespace swallowing

@@ -35,6 +35,7 @@ RunSettings fingerprint(const Options& options, const Case& chosen, const std::f
   RunSettings settings{{"case", std::string(chosen.name)},
                        {"scalar", options.single_precision ? "float" : "double"},
                        {"spacing", text(options.spacing)},
+                       {"particles", options.fitted ? "fitted" : "lattice"},
                        {"lattice shift", text(options.lattice_shift)},
                        {"region H", options.constrictors ? "yes" : "no"},
                        {"friction", text(friction)},
@@ -50,6 +51,7 @@ RunSettings shared_settings(const Options& options) {
   const auto text = [](double value) { return examples::to_text(value); };
   RunSettings settings{{"scalar", options.single_precision ? "float" : "double"},
                        {"spacing", text(options.spacing)},
+                       {"particles", options.fitted ? "fitted" : "lattice"},
                        {"lattice shift", text(options.lattice_shift)},
                        {"region H", options.constrictors ? "yes" : "no"},
                        {"friction", options.friction ? text(*options.friction) : "of the case"},

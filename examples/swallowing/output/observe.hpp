@@ -43,9 +43,7 @@ template <class S>
   const auto& x = simulation.position_array();
   const auto base = mean_position(x, scene.base), centre = mean_position(x, scene.centre),
              tip = mean_position(x, scene.tip);
-  const auto positions = simulation.body(simulation.positions());
   const auto velocities = simulation.body(simulation.velocities());
-  const auto gradients = simulation.body(simulation.gradients());
   const double particle_volume = std::pow(scene.spacing, 3);
   const auto& execute = simulation.executor();
   const auto J = volume(simulation, scene);
@@ -54,9 +52,8 @@ template <class S>
   sample.tip_angle = angle_above_horizontal(centre, tip);
   sample.base_angle = angle_above_horizontal(base, tip);
   sample.kinetic_energy = hmps::kinetic_energy(velocities, simulation.materials().density, particle_volume, execute);
-  sample.strain_energy = hmps::strain_energy(gradients, simulation.tissue(), particle_volume, execute);
-  sample.artificial_energy = hmps::artificial_energy(simulation.bonds(), positions, gradients, simulation.stabiliser(),
-                                                     particle_volume, execute);
+  const StoredEnergy stored = simulation.stored_energy();
+  sample.strain_energy = stored.strain, sample.artificial_energy = stored.artificial;
   sample.smallest_j = J.min, sample.largest_j = J.max, sample.mean_j = J.mean;
   for (std::size_t i = 0; i < velocities.size(); ++i)
     sample.largest_speed = std::max(sample.largest_speed, velocities[i].template cast<double>().norm());

@@ -5,15 +5,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <hmps/particles/lattice.hpp>
-#include <hmps/particles/support.hpp>
-#include <hmps/particles/thicken.hpp>
 #include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
 
 #include "../../common/error.hpp"
+#include "scene/body.hpp"
 #include "scene/scene.hpp"
 
 namespace swallowing {
@@ -22,91 +20,6 @@ namespace detail {
 
 /// mm along the body from a joint of two organs within which they do not touch.
 inline constexpr double attachment = 5.0;
-
-/// The particles of the body with their bonds, while the scene is being built.
-struct Body {
-  std::vector<Point> points;  ///< m
-  std::vector<Organ> organ;
-  std::vector<std::vector<std::pair<std::size_t, Point>>> bonds;  ///< neighbours and r0
-  std::vector<std::array<hmps::Index, 2>> cut;                    ///< sorted pairs between which there is air
-  std::size_t removed = 0;
-
-  /// The lattice sites in the organs. The thin edges of the epiglottis keep too few neighbours on a coarse lattice:
-  /// they are filled up, and weakly supported particles elsewhere left out.
-  Body(const Anatomy& anatomy, const hmps::Box<double, 3>& box, double spacing, const Point& origin) {
-    const auto inside = [&](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
-    points = hmps::fill_lattice(inside, box, spacing, origin);
-    const std::size_t drawn = points.size();
-    const auto fill_up = [&](const Point& x) {
-      return anatomy.epiglottis(1e3 * x) < 0.5e3 * spacing && anatomy.epiglottis.ahead(1e3 * x) < 0.3;
-    };
-    for (const Point& x : hmps::thicken(hmps::vectors(points), {.spacing = spacing}, fill_up)) points.push_back(x);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      organ.push_back(i < drawn ? anatomy.organ_at(1e3 * points[i]) : Organ::epiglottis);
-
-    const LatticeGraph graph(points, spacing);
-    bonds.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      graph.around(i, [&](std::size_t j, const Point& r0) {
-        if (j < i) return;  // Air is looked for once per pair, so that both see the same.
-        const bool one_epiglottis = std::max(i, j) >= drawn && organ[i] == organ[j];
-        if (!one_epiglottis && air_between(anatomy, 1e3 * points[i], 1e3 * points[j]))
-          cut.push_back(ordered(i, j));
-        else
-          bonds[i].emplace_back(j, r0), bonds[j].emplace_back(i, Point(-r0));
-      });
-    std::sort(cut.begin(), cut.end());
-    keep(supported(spacing));
-    removed = drawn - std::min(drawn, points.size());
-  }
-
-  /// Which particles to keep: all but weakly supported ones, until there is none, and loose bits.
-  [[nodiscard]] std::vector<char> supported(double spacing) const {
-    const auto bonded = [this](std::size_t i, std::size_t j) {
-      return !std::binary_search(cut.begin(), cut.end(), ordered(i, j));
-    };
-    std::vector<char> kept(points.size(), 0);
-    for (const hmps::Index i :
-         hmps::supported_particles(hmps::vectors(points), {.spacing = spacing}, hmps::KeepNone{}, bonded))
-      kept[i] = 1;
-    return kept;
-  }
-
-  /// Leaves out all other particles.
-  void keep(const std::vector<char>& kept) {
-    std::vector<std::size_t> place(points.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) place[i] = kept[i] ? count++ : points.size();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!kept[i]) continue;
-      std::vector<std::pair<std::size_t, Point>> rest;
-      for (const auto& [j, r0] : bonds[i])
-        if (kept[j]) rest.emplace_back(place[j], r0);
-      points[place[i]] = points[i], organ[place[i]] = organ[i], bonds[place[i]] = std::move(rest);
-    }
-    points.resize(count), organ.resize(count), bonds.resize(count);
-    std::vector<std::array<hmps::Index, 2>> rest;
-    for (const auto& [i, j] : cut)
-      if (kept[i] && kept[j]) rest.push_back({static_cast<hmps::Index>(place[i]), static_cast<hmps::Index>(place[j])});
-    cut = std::move(rest);
-  }
-};
-
-/// Which particles have air beside them (0), which have such a neighbour (1), and the others (2).
-[[nodiscard]] inline std::vector<char> depths(const Body& body, double spacing) {
-  const auto& points = body.points;
-  std::vector<char> depth(points.size(), 2);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    int faces = 0;
-    for (const auto& [j, r0] : body.bonds[i]) faces += r0.norm() < 1.1 * spacing;
-    if (faces < 6) depth[i] = 0;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (depth[i] == 2)
-      for (const auto& [j, r0] : body.bonds[i])
-        if (depth[j] == 0 && r0.norm() < 1.1 * spacing) depth[i] = 1;
-  return depth;
-}
 
 /// Particles of organs `a` and `b` no further than `attachment` along the body from where the two are joined.
 [[nodiscard]] inline std::vector<char> near_joint(const Body& body, Organ a, Organ b) {
@@ -153,11 +66,11 @@ struct Body {
                                                                            const Anatomy& anatomy) {
   const double l0 = scene.spacing;
   const auto surface = [&](const Point& x) { return 1e-3 * anatomy.surface(1e3 * x); };
-  const auto depth = depths(body, l0);
   std::vector<hmps::Index> skin;
   for (std::size_t i = 0; i < body.points.size(); ++i) {
     const Organ organ = body.organ[i];
-    if (depth[i] > 0 || (organ != Organ::epiglottis && organ != Organ::pharynx && organ != Organ::tongue)) continue;
+    if (body.depth[i] > 0 || (organ != Organ::epiglottis && organ != Organ::pharynx && organ != Organ::tongue))
+      continue;
     const auto offset = hmps::SurfaceCorrection<double, 3>::offset_of(body.points[i], surface, l0);
     if (offset && offset->norm() < l0) skin.push_back(static_cast<hmps::Index>(i));
   }
@@ -166,7 +79,7 @@ struct Body {
 
 /// Fills `scene.contacts` for the pairs in `touching`, but for those with region H.
 inline void declare_contacts(Scene& scene, const Body& body) {
-  const auto depth = depths(body, scene.spacing);
+  const auto& depth = body.depth;
   for (const OrganPair& pair : touching) {
     ContactPair contact{pair.first, pair.second, {}, {}, {}, {}};
     const auto near = near_joint(body, pair.first, pair.second);
@@ -250,14 +163,8 @@ inline void require_particles(const Scene& scene, Model model) {
   examples::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
                     " m; give 0.5e-3 to 2.4e-3, the sheets of 4.8 mm need two particles");
   const Anatomy anatomy;
-  const hmps::Box<double, 3> box{1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
-  // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other. A plane
-  // of particles along the posterior wall, which then is no staircase; z has no such surface and follows x. At 1.8 mm
-  // the fold hangs on this place: see docs/swallowing.md.
-  const double plane = 1e-3 * Pharynx::posterior_wall + (0.5 + settings.lattice_shift) * l0;
-  const Point origin(plane, l0 / 2, plane);
-
-  const detail::Body body(anatomy, box, l0, origin);
+  const detail::Body body = settings.fitted ? detail::fitted_body(anatomy, *settings.fitted, l0)
+                                            : detail::lattice_body(anatomy, l0, settings.lattice_shift);
 
   Scene scene;
   scene.spacing = l0;
@@ -266,6 +173,8 @@ inline void require_particles(const Scene& scene, Model model) {
   scene.regions = body_regions(settings.model);
   scene.organ = body.organ;
   scene.cut = body.cut;
+  scene.layers = body.layers;
+  scene.layer_spacings = body.layer_spacings;
   for (std::size_t i = 0; i < body.points.size(); ++i) {
     const Point x = 1e3 * body.points[i];
     scene.reference.emplace_back(body.points[i]);
@@ -278,10 +187,13 @@ inline void require_particles(const Scene& scene, Model model) {
     if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
   }
   detail::declare_contacts(scene, body);
-  if (settings.drawn_surfaces) scene.skin = detail::surface_correction(scene, body, anatomy);
-  const Point placement = detail::leaf_placement(body, l0);
-  for (Region& region : scene.regions)
-    if (region.name == "E" || region.name == "F") region.placement = placement;
+  // Fitted particles lie along the drawn surfaces, and the leaf ends where it is drawn.
+  if (!settings.fitted) {
+    if (settings.drawn_surfaces) scene.skin = detail::surface_correction(scene, body, anatomy);
+    const Point placement = detail::leaf_placement(body, l0);
+    for (Region& region : scene.regions)
+      if (region.name == "E" || region.name == "F") region.placement = placement;
+  }
   if (settings.constrictors) detail::add_constrictors(scene, anatomy, read_constrictors(settings.data));
   std::erase_if(scene.contacts, [](const ContactPair& c) { return c.first_slaves.empty() || c.second_slaves.empty(); });
   require_particles(scene, settings.model);

@@ -18,6 +18,7 @@
 
 #include "scene/anatomy.hpp"
 #include "scene/cases.hpp"
+#include "scene/fitted_organs.hpp"
 #include "scene/motion.hpp"
 #include "scene/organs.hpp"
 #include "scene/regions.hpp"
@@ -28,9 +29,10 @@ struct SceneSettings {
   double spacing = 2.4e-3;   ///< l0 in m
   double lattice_shift = 0;  ///< of the lattice along x and z, in spacings, from where `make_scene` puts it
   Model model = Model::X;
-  bool constrictors = true;    ///< with region H
-  bool drawn_surfaces = true;  ///< contact sees the drawn surfaces; false: the lattice's own, as in the paper
-  std::filesystem::path data;  ///< folder of the motion, whose constrictors.csv shapes region H
+  bool constrictors = true;              ///< with region H
+  bool drawn_surfaces = true;            ///< contact sees the drawn surfaces; false: the lattice's own, as in the paper
+  std::filesystem::path data;            ///< folder of the motion, whose constrictors.csv shapes region H
+  const FittedOrgans* fitted = nullptr;  ///< the particles in place of those of the lattice
 };
 
 /// Two organs that may touch, as particles: each side is slave of the other (\paper{43}). Where the
@@ -56,6 +58,8 @@ struct Scene {
   std::vector<Organ> organ;  ///< of each particle
   std::vector<Region> regions;
   std::vector<int> region;  ///< of each particle: place in `regions`, -1 if it is free
+  std::vector<int> layers;  ///< of fitted particles of the body: through the wall there, 0 in bulk; else empty
+  std::vector<double> layer_spacings;  ///< their distance in m
   std::vector<std::array<hmps::Index, 2>>
       cut;  ///< sorted pairs (i < j) nearer than the effective radius that air divides
   std::vector<ContactPair> contacts;

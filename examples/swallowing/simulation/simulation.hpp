@@ -6,17 +6,11 @@
 #include <cstdint>
 #include <hmps/analysis/stable_step.hpp>
 #include <hmps/analysis/step_causes.hpp>
-#include <hmps/bonds/lattice_bonds.hpp>
 #include <hmps/contact/contact.hpp>
 #include <hmps/executors/openmp.hpp>
-#include <hmps/force/internal_force.hpp>
-#include <hmps/laws/mooney_rivlin.hpp>
 #include <hmps/motion/control_region.hpp>
-#include <hmps/terms/artificial.hpp>
-#include <hmps/terms/elastic.hpp>
-#include <hmps/terms/record.hpp>
-#include <hmps/terms/viscous.hpp>
 #include <hmps/time/symplectic_euler.hpp>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,6 +19,7 @@
 #include "scene/materials.hpp"
 #include "scene/motion.hpp"
 #include "scene/scene.hpp"
+#include "simulation/soft_tissue.hpp"
 #include "simulation/step_clock.hpp"
 
 namespace swallowing {
@@ -53,12 +48,7 @@ class Simulation {
         places_(x_.size()),
         v_(3 * x_.size(), S(0)),
         F_(9 * x_.size(), S(0)),
-        modulus_(young_per_particle(scene, materials)),
-        bonds_(hmps::vectors(scene.reference).part(0, scene.elastic_count), {.spacing = scene.spacing},
-               [&scene](std::size_t i, std::size_t j) { return scene.bonded(i, j); }),
-        force_(hmps::internal_force(bonds_, hmps::record(body(gradients())), hmps::elastic(Tissue{this}),
-                                    hmps::artificial(Stabiliser{this}),
-                                    hmps::viscous(materials.density, materials.kinematic_viscosity))),
+        tissue_(make_tissue<S>(scene, materials, body(gradients()), execute_)),
         step_limit_(limit_at_rest()),
         step_share_(settings.time_step > 0 ? 0 : settings.step_share),
         penalty_(chosen_penalty(settings)),
@@ -68,8 +58,11 @@ class Simulation {
                                .stiffness = hmps::PenaltyStiffness::fixed(penalty_)},
                               settings.paper_contact)) {
     clock_ = StepClock(settings.time_step > 0 ? settings.time_step : chosen_step());
-    limited_by_ = hmps::describe(step_limit_, causes(), hmps::relative_support(bonds_, step_limit_.particle));
-    force_.restrict_to([&scene](std::size_t i) { return scene.region[i] < 0; });
+    limited_by_ = hmps::describe(step_limit_, tissue_->causes(step_limit_, body(positions()), body(velocities())),
+                                 tissue_->support(step_limit_.particle));
+    std::vector<char> free;
+    for (std::size_t i = 0; i < scene.elastic_count; ++i) free.push_back(scene.region[i] < 0);
+    tissue_->restrict_to(free);
     for (std::size_t i = 0; i < x_.size(); ++i) gradients().set(i, Eigen::Matrix3d::Identity());
     add_contacts();
     add_regions(motion);
@@ -81,7 +74,7 @@ class Simulation {
   void step() {
     const auto x = positions();
     const auto v = velocities();
-    force_.kick(body(x), body(v), materials_.density, time_step(), execute_);
+    tissue_->kick(body(x), body(v), time_step());
     // What has a forced displacement moves by it, also as a wall, whatever forces act on it.
     clock_.advance();
     prescribe();
@@ -130,30 +123,9 @@ class Simulation {
   [[nodiscard]] View body(const View& view) const {
     return view.part(0, scene_->elastic_count);
   }
-  [[nodiscard]] const hmps::LatticeBonds<S, 3>& bonds() const { return bonds_; }
+  [[nodiscard]] StoredEnergy stored_energy() { return tissue_->stored_energy(body(positions()), body(gradients())); }
   [[nodiscard]] const hmps::OpenMP& executor() const { return execute_; }
   [[nodiscard]] const Materials& materials() const { return materials_; }
-
-  /// The law of each particle: C1 = C2 from its Young's modulus by \paper{18}.
-  struct Tissue {
-    const Simulation* simulation;
-    template <class At>
-    [[nodiscard]] auto operator()(const At& at) const {
-      const auto young = at(simulation->modulus());
-      using T = std::remove_const_t<decltype(young)>;
-      return hmps::MooneyRivlin<T>::from_young(young, T(simulation->materials_.d1));
-    }
-  };
-  /// E_hat of each particle.
-  struct Stabiliser {
-    const Simulation* simulation;
-    template <class At>
-    [[nodiscard]] auto operator()(const At& at) const {
-      return at(simulation->modulus()) * S(simulation->materials_.stabiliser_ratio);
-    }
-  };
-  [[nodiscard]] Tissue tissue() const { return {this}; }
-  [[nodiscard]] Stabiliser stabiliser() const { return {this}; }
 
   /// The state that the next step starts from: with it, and the mode that limits the step, a run goes on to the same
   /// bits.
@@ -186,20 +158,11 @@ class Simulation {
     return hmps::vectors(places_);
   }
 
-  /// Young's modulus (Pa) of each particle of the body.
-  [[nodiscard]] auto modulus() const { return body(hmps::scalars(modulus_)); }
-
   template <int N>
   [[nodiscard]] hmps::View<S, N> structure_of_arrays(std::vector<S>& values) const {
     std::array<S*, N> base{};
     for (std::size_t c = 0; c < N; ++c) base[c] = values.data() + c * x_.size();
     return {base, x_.size(), sizeof(S)};
-  }
-
-  [[nodiscard]] static std::vector<S> young_per_particle(const Scene& scene, const Materials& materials) {
-    std::vector<S> young;
-    for (const Organ organ : scene.organ) young.push_back(static_cast<S>(materials.young_of(organ)));
-    return young;
   }
 
   [[nodiscard]] hmps::StableStep limit_at_rest() {
@@ -208,19 +171,8 @@ class Simulation {
   }
   [[nodiscard]] hmps::StableStep limit(const std::vector<double>& start) {
     const auto moves = [this](std::size_t i) { return scene_->region[i] < 0; };
-    return hmps::stable_step([this](const auto& x, const auto& v, const auto& f) { force_(x, v, f, execute_); },
-                             body(positions()), body(velocities()), materials_.density,
-                             {.spacing = scene_->spacing, .seed = steps() + 1, .start = start, .moves = moves},
-                             execute_);
-  }
-  /// Which of the forces limit the step at rest.
-  [[nodiscard]] std::vector<hmps::StepCause> causes() {
-    auto elasticity = hmps::internal_force(bonds_, hmps::elastic(tissue()));
-    auto stabiliser = hmps::internal_force(bonds_, hmps::artificial(this->stabiliser()));
-    auto viscosity = hmps::internal_force(bonds_, hmps::viscous(materials_.density, materials_.kinematic_viscosity));
-    return hmps::step_causes(step_limit_, body(positions()), body(velocities()), materials_.density,
-                             {.spacing = scene_->spacing}, hmps::NamedForce{"elasticity", elasticity},
-                             hmps::NamedForce{"stabiliser", stabiliser}, hmps::NamedForce{"viscosity", viscosity});
+    return tissue_->stable_step(body(positions()), body(velocities()),
+                                {.spacing = scene_->spacing, .seed = steps() + 1, .start = start, .moves = moves});
   }
   /// The share of the largest step that is stable with contact too, which adds k / rho to the square of a frequency.
   [[nodiscard]] double chosen_step() const {
@@ -280,12 +232,8 @@ class Simulation {
   Materials materials_;
   hmps::OpenMP execute_;
   std::vector<Eigen::Vector3d> x_, places_;
-  std::vector<S> v_, F_, modulus_;
-  hmps::LatticeBonds<S, 3> bonds_;
-  decltype(hmps::internal_force(std::declval<const hmps::LatticeBonds<S, 3>&>(),
-                                hmps::record(std::declval<hmps::MatrixView<S, 3>>()),
-                                hmps::elastic(std::declval<Tissue>()), hmps::artificial(std::declval<Stabiliser>()),
-                                hmps::viscous(1.0, 1.0))) force_;
+  std::vector<S> v_, F_;
+  std::unique_ptr<SoftTissue<S>> tissue_;
   StepClock clock_;
   hmps::StableStep step_limit_;
   std::string limited_by_;

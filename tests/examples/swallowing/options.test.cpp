@@ -96,6 +96,16 @@ TEST(Options, TheContactOfThePaperHasItsPenalty) {
   EXPECT_FALSE(parse({"--contact", "paper", "--penalty", "1e10"}).options->penalty_ratio);
 }
 
+TEST(Options, FittedParticlesLieOnNoLattice) {
+  EXPECT_FALSE(parse({}).options->fitted);
+  EXPECT_FALSE(parse({"--particles", "lattice"}).options->fitted);
+  EXPECT_TRUE(parse({"--particles", "fitted"}).options->fitted);
+  const auto shifted = parse({"--particles", "fitted", "--lattice-shift", "0.5"});
+  EXPECT_FALSE(shifted.options);
+  EXPECT_EQ(shifted.exit_code, 2);
+  EXPECT_NE(shifted.err.find("no lattice that could be shifted"), std::string::npos) << shifted.err;
+}
+
 TEST(Options, NumbersAreDecimal) {
   EXPECT_EQ(parse({"--threads", "010"}).options->threads, 10);  // eight, to CLI11
   EXPECT_EQ(parse({"--threads", "+2"}).options->threads, 2);
@@ -137,6 +147,7 @@ TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
                                                        {"--unknown"},
                                                        {"--out", ""},
                                                        {"--lattice-shift", "7"},
+                                                       {"--particles", "random"},
                                                        {"--frame-interval", "0"},
                                                        {"--data", "/no/where"},
                                                        {"stray"},

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/shapes/isosurface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "hmps/core/error.hpp"
+#include "hmps/shapes/combine.hpp"
+#include "reference/backwards.hpp"
+#include "reference/message_of.hpp"
+
+namespace isosurface_test {
+
+using hmps::isosurface;
+using hmps_test::message_of;
+
+template <class S>
+class Isosurface : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(Isosurface, Scalars);
+
+template <class S>
+using V = hmps::Vector<S, 3>;
+template <class S>
+[[nodiscard]] hmps::Box<S, 3> cube(S half) {
+  return {V<S>::Constant(-half), V<S>::Constant(half)};
+}
+
+TYPED_TEST(Isosurface, IsClosedAndTurnedOutwardsWithItsVerticesOnTheBall) {
+  using S = TypeParam;
+  const hmps::Ball<S, 3> ball{V<S>(S(0.001), S(0.002), S(-0.0015)), S(0.01)};
+  const auto mesh = isosurface(ball, cube<S>(S(0.014)), S(0.001));
+  EXPECT_NO_THROW(require_closed(mesh));
+  for (const auto& x : mesh.vertices) ASSERT_NEAR(ball(x), 0, 1e-3 / 2000);
+  const double exact = 4 * std::numbers::pi / 3 * 1e-6;
+  EXPECT_NEAR(volume(mesh), exact, 0.005 * exact);  // chords: 0.23 %
+  EXPECT_LT(volume(mesh), exact);
+}
+
+// Each halving of the cells quarters what is cut off, more or less as the cells happen to lie.
+TYPED_TEST(Isosurface, ConvergesWithTheSquareOfTheCell) {
+  using S = TypeParam;
+  const hmps::Ball<S, 3> ball{V<S>::Zero(), S(1)};
+  const auto missing = [&](S cell) {
+    return 4 * std::numbers::pi / 3 - volume(isosurface(ball, cube<S>(S(1.3)), cell));
+  };
+  EXPECT_NEAR(missing(S(0.2)) / missing(S(0.05)), 16, 3);
+}
+
+// Which corner of a tetrahedron is inside, and which way it is turned: every case occurs.
+TYPED_TEST(Isosurface, ClosesWhateverTheSignsOfTheNodes) {
+  using S = TypeParam;
+  const auto noise = [](const V<S>& x) {
+    const S sum = std::sin(S(12.9898) * x[0] + S(78.233) * x[1] + S(37.719) * x[2]) * S(43758.5453);
+    return sum - std::floor(sum) - S(0.5);
+  };
+  const auto mesh = isosurface(noise, cube<S>(S(1)), S(0.2));
+  EXPECT_GT(mesh.triangles.size(), 5000u);
+  EXPECT_NO_THROW(require_closed(mesh));
+  EXPECT_GT(volume(mesh), 0);
+}
+
+TYPED_TEST(Isosurface, NeedsNoDistanceButTheSign) {
+  using S = TypeParam;
+  const hmps::Ball<S, 3> ball{V<S>::Zero(), S(1)};
+  const auto sign = [&](const V<S>& x) { return ball(x) < 0 ? S(-1) : S(1e6); };
+  const auto cube3 = cube<S>(S(1.2));
+  EXPECT_EQ(isosurface(sign, cube3, S(0.1)).vertices, isosurface(ball, cube3, S(0.1)).vertices);
+}
+
+TYPED_TEST(Isosurface, IsClosedByTheFacesOfTheBox) {
+  using S = TypeParam;
+  const hmps::Ball<S, 3> ball{V<S>::Zero(), S(1)};
+  const hmps::Box<S, 3> upper{V<S>(S(-2), S(-2), S(0)), V<S>::Constant(S(2))};
+  const auto mesh = isosurface(ball, upper, S(0.05));
+  EXPECT_NO_THROW(require_closed(mesh));
+  EXPECT_NEAR(volume(mesh), 2 * std::numbers::pi / 3, 0.01);
+  for (const auto& x : mesh.vertices) EXPECT_GT(x[2], S(-0.0001));
+}
+
+TEST(Isosurface, DoesNotDependOnTheOrderOfTheWork) {
+  const hmps::Ball<double, 3> ball{V<double>::Zero(), 1};
+  const auto forwards = isosurface(ball, cube(1.2), 0.1);
+  const auto backwards = isosurface(ball, cube(1.2), 0.1, hmps_test::Backwards{});
+  EXPECT_EQ(forwards.vertices, backwards.vertices);
+  EXPECT_EQ(forwards.triangles, backwards.triangles);
+}
+
+TEST(Isosurface, RefusesWhatItCannotCut) {
+  const hmps::Ball<double, 3> ball{V<double>::Zero(), 1};
+  const auto refused = [&](const auto& shape, const hmps::Box<double, 3>& box, double cell) {
+    return message_of<hmps::InputError>([&] { (void)isosurface(shape, box, cell); });
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refused(ball, {V<double>::Constant(1), V<double>::Zero()}, 0.1).find("upper corner"), std::string::npos);
+  EXPECT_NE(refused(ball, {V<double>::Constant(nan), V<double>::Zero()}, 0.1).find("nan"), std::string::npos);
+  for (const double cell : {0.0, -0.1, nan})
+    EXPECT_NE(refused(ball, cube(1.2), cell).find("positive width"), std::string::npos) << cell;
+  EXPECT_NE(refused(ball, cube(1.2), 1e-9).find("too many"), std::string::npos);
+  EXPECT_NE(refused(ball, {V<double>::Constant(2), V<double>::Constant(3)}, 0.1).find("no surface"), std::string::npos);
+  const auto broken = [&](const V<double>& x) { return x[0] > 0 ? nan : ball(x); };
+  EXPECT_NE(refused(broken, cube(1.2), 0.1).find("NaN at"), std::string::npos);
+}
+
+}  // namespace isosurface_test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/shapes/redistanced.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+
+#include "hmps/particles/fitted.hpp"
+#include "hmps/shapes/combine.hpp"
+#include "hmps/shapes/implicit.hpp"
+
+namespace redistanced_test {
+
+using V = hmps::Vector<double, 3>;
+using Box = hmps::Box<double, 3>;
+const Box around{V::Constant(-1.5), V::Constant(1.5)};
+
+TEST(Redistanced, IsTheDistanceOfAFunctionThatIsNone) {
+  const hmps::Ball<double, 3> ball{V(0.1, -0.2, 0.05), 1};
+  const auto steep = [&](const V& x) { return 40 * ball(x) * (2 + x[0]); };
+  const auto distance = redistanced(steep, around, 0.05);
+  static_assert(hmps::Shape<decltype(distance), double, 3>);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  for (int k = 0; k < 300; ++k) {
+    const V x(uniform(random), uniform(random), uniform(random));
+    EXPECT_NEAR(distance(x), ball(x), 0.002) << x.transpose();
+  }
+  EXPECT_TRUE(std::isnan(distance(V(std::numeric_limits<double>::quiet_NaN(), 0, 0))));
+}
+
+// The least of two distances says that the middle of the joint is a fifth below the surface of either box.
+TEST(Redistanced, KnowsTheInsideOfUnitedParts) {
+  const auto united = hmps::unite(Box{V(-1, -0.5, -0.5), V(0.2, 0.5, 0.5)}, Box{V(-0.2, -0.5, -0.5), V(1, 0.5, 0.5)});
+  const auto distance = redistanced(united, around, 0.05);
+  EXPECT_NEAR(united(V(0, 0, 0)), -0.2, 1e-12);
+  EXPECT_NEAR(distance(V(0, 0, 0)), -0.5, 1e-4);
+  EXPECT_NEAR(distance(V(0.1, 0.3, 0)), -0.2, 1e-4);
+  EXPECT_NEAR(distance(V(0, 0, 0.7)), 0.2, 1e-4);
+}
+
+// A plate whose width grows, with a multiple of what y is above its half width in place of a distance.
+TEST(Redistanced, LetsAnyShapeBeFitted) {
+  const auto plate = [](const V& x) {
+    const double side = std::abs(x[1]) - 0.5 - 0.2 * (x[0] + 1) * (x[0] + 1) / 4;
+    return std::max({std::abs(x[2]) - 0.15, 8 * side, std::abs(x[0]) - 1});
+  };
+  const double l0 = 0.15, exact = 0.3 * (2 * 2 * 0.5 + 2 * 0.2 * 8 / 12);
+  const auto distance = redistanced(plate, around, l0 / 6);
+  const auto fitted = hmps::fit_particles(distance, around, l0);
+  double sum = 0;
+  for (const double volume : fitted.volumes) sum += volume;
+  EXPECT_NEAR(sum, exact, 0.01 * exact);
+  EXPECT_LT(fitted.largest_distance, 0.05 * l0);
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const V& x = fitted.positions[i];
+    EXPECT_EQ(fitted.layers[i], 2);
+    EXPECT_NEAR(distance(x), -l0 / 2, 0.05 * l0);
+    const bool along_rim = plate({x[0], x[1], 0}) > -1.1 * l0;
+    EXPECT_TRUE(along_rim || std::abs(std::abs(x[2]) - l0 / 2) < 0.02 * l0) << x.transpose();
+  }
+}
+
+}  // namespace redistanced_test
