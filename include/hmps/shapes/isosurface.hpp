@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -69,7 +70,7 @@ class IsosurfaceMaker {
   using Edges = std::vector<Index>;
   static constexpr Index nobody = std::numeric_limits<Index>::max();
   static constexpr std::size_t edge_kinds = 7;  // the axes, and the diagonals of faces and of the cube
-  static constexpr double most_cells = 1e5;
+  static constexpr double most_cells = 5000;    // along an axis: a plane of them takes 1.6 GB
 
   /// Half a cell outside the box, so that its faces close the surface.
   [[nodiscard]] Point place(const Node& node) const {
@@ -196,8 +197,8 @@ class IsosurfaceMaker {
 /// @param shape  negative inside; called from several threads if `execute` has them
 /// @param box    in m; its faces cut, and close the surface where they do
 /// @param cell   width of the cells in m
-/// Throws `InputError` for a box without volume, a width that is not positive, more than a hundred thousand cells along
-/// an axis, a shape that is NaN, with the position, and one without surface in the box.
+/// Throws `InputError` for a box without volume, a width that is not positive, more than 5000 cells along an axis, a
+/// shape that is NaN, with the position, and one without surface in the box.
 template <class F, class S, Executor E = Serial>
 requires Shape<F, S, 3>
 [[nodiscard]] SurfaceMesh<S> isosurface(const F& shape, const Box<S, 3>& box, std::type_identity_t<S> cell,

@@ -43,6 +43,14 @@ TEST(Redistanced, KnowsTheInsideOfUnitedParts) {
   EXPECT_NEAR(distance(V(0, 0, 0.7)), 0.2, 1e-4);
 }
 
+TEST(Redistanced, EndsAtTheFacesOfTheBox) {
+  const hmps::Ball<double, 3> ball{V::Zero(), 1};
+  const auto upper = redistanced(ball, Box{V(-1.5, -1.5, 0), V::Constant(1.5)}, 0.05);
+  EXPECT_NEAR(upper(V(0, 0, 0.1)), -0.1, 1e-4);
+  EXPECT_NEAR(upper(V(0, 0, -0.1)), 0.1, 1e-4);
+  EXPECT_NEAR(upper(V(0, 0, 0.8)), -0.2, 2e-3);
+}
+
 // A plate whose width grows, with a multiple of what y is above its half width in place of a distance.
 TEST(Redistanced, LetsAnyShapeBeFitted) {
   const auto plate = [](const V& x) {
