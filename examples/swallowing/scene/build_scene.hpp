@@ -152,8 +152,8 @@ inline void require_particles(const Scene& scene, Model model) {
   for (std::size_t r = 0; r < particles.size(); ++r)
     examples::require(!particles[r].empty(), "control region ", scene.regions[r].name, " of model ",
                       model == Model::X ? "X" : "Y", " has no particle at a spacing of ", 1e3 * scene.spacing,
-                      " mm: no column of the lattice lies in it, and nothing of it would move; widen it in "
-                      "scene/regions.hpp, or give a finer --spacing or another --lattice-shift");
+                      " mm, so that nothing of it would move; widen it in scene/regions.hpp, or give a finer --spacing",
+                      scene.layers.empty() ? " or another --lattice-shift" : "");
 }
 
 /// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart or a control

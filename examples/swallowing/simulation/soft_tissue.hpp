@@ -197,8 +197,9 @@ class TissueOn final : public SoftTissue<S> {
     const auto of = [&](auto&&... forces) {
       return hmps::step_causes(limit, x, v, materials_.density, {.spacing = spacing_}, forces...);
     };
-    const hmps::NamedForce first{"elasticity", elasticity}, second{"stabiliser", artificial},
-        third{"viscosity", viscosity};
+    const hmps::NamedForce first{"elasticity", elasticity};
+    const hmps::NamedForce second{"stabiliser", artificial};
+    const hmps::NamedForce third{"viscosity", viscosity};
     if constexpr (on_lattice<Bonds>) return of(first, second, third);
     auto dilatation = hmps::internal_force(bonds_, mean_dilatation(parameters_));
     return of(first, second, third, hmps::NamedForce{"mean dilatation", dilatation});
