@@ -189,8 +189,8 @@ class IsosurfaceMaker {
 ///     const auto fitted = fit_particles(body, body.box(), l0);
 ///
 /// Vertices lie on the surface of the shape to a four-thousandth of a cell. Between them it is flat: edges and corners
-/// are bevelled by up to half a cell, and a ball of radius R is cut short by 0.08 cell^2 / R in the mean, up to 0.4. What
-/// is thinner than a cell may be missed.
+/// are bevelled by up to half a cell, and a ball of radius R is cut short by 0.08 cell^2 / R in the mean, up to 0.4.
+/// What is thinner than a cell may be missed.
 ///
 /// The result is deterministic and does not depend on the executor.
 ///
