@@ -188,9 +188,9 @@ class IsosurfaceMaker {
 ///     const MeshDistance<double> body(isosurface(shape, box, l0 / 4));
 ///     const auto fitted = fit_particles(body, body.box(), l0);
 ///
-/// Vertices lie on the surface of the shape to a four-thousandth of a cell. Between them it is flat: edges and corners
-/// are bevelled by up to half a cell, and a ball of radius R is cut short by 0.08 cell^2 / R in the mean, up to 0.4.
-/// What is thinner than a cell may be missed.
+/// Vertices lie on the surface of the shape to a four-thousandth of a cell. Between them it is flat: right-angled edges
+/// are bevelled by 0.17 cells in the mean and up to 0.6, corners up to 0.7, and a ball of radius R is cut short by 0.08
+/// cell^2 / R in the mean and up to 0.4. What is thinner than a cell may be missed.
 ///
 /// The result is deterministic and does not depend on the executor.
 ///
