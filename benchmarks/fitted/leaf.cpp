@@ -31,16 +31,13 @@ constexpr double answer = 0.2648;
 }
 
 /// About the signed distance (mm) to the leaf between two lengths of the midline (mm): that of the example is not one
-/// where the width changes, and knows no ends. What is held goes on with the section at the clamp: if its sides ran
-/// apart as the leaf's do, they would meet the cut at 71 degrees, which `fit_particles` takes for the edge of a wedge.
+/// where the width changes, and knows no ends.
 [[nodiscard]] double distance(const Vector& x, double from, double to) {
   const double arc = arc_of(x), angle = Epiglottis::angle(arc);
   const Vector off = x - Epiglottis::midline(arc);
   const double behind = off[0] * std::sin(angle) - off[2] * std::cos(angle) - 0.012 * x[1] * x[1];
   const double faces = (std::abs(behind) - wall / 2) / std::hypot(1, 0.024 * x[1]);
-  const auto half_width = [&](double at) {
-    return Epiglottis::half_width(from < clamp ? clamp : std::clamp(at, from, to));
-  };
+  const auto half_width = [&](double at) { return Epiglottis::half_width(std::clamp(at, from, to)); };
   constexpr double change = 1e-3;
   const double slope = (half_width(arc + change) - half_width(arc - change)) / (2 * change);
   const double edges = (std::abs(x[1]) - half_width(arc)) / std::hypot(1, slope);

@@ -260,6 +260,8 @@ void FittedField<F, S, D>::sample(const E& execute) {
 template <class F, class S, int D>
 template <class E>
 void FittedField<F, S, D>::measure(const E& execute) {
+  // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Where faces meet at more they are an edge.
+  constexpr double opposite = -0.5;
   const double most = most_layers * spacing_, step = spacing_ / 8;
   execute(surface_.size(), [&](std::size_t k) {
     SurfacePoint<D>& point = surface_[k];
@@ -276,7 +278,7 @@ void FittedField<F, S, D>::measure(const E& execute) {
       // A little further, so that the difference is that of the other side.
       const Point other = point.place - (r + step / 2) * point.outward;
       const Point g = gradient(other);
-      if (g.dot(point.outward) < -0.3) point.thickness = std::min(most, r + step / 2 - (*this)(other));
+      if (g.dot(point.outward) < opposite) point.thickness = std::min(most, r + step / 2 - (*this)(other));
       break;
     }
   });

@@ -217,6 +217,18 @@ struct TwoThreads {
   }
 };
 
+// Faces that meet at more than 60 degrees, as where a body that flares is cut, are not the two sides of a wall.
+TEST(FitParticles, TakesNoAcuteEdgeForAWall) {
+  for (const double degrees : {62.0, 66.0, 70.0}) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    const auto flaring = [=](const Vector<double, 2>& x) {
+      return std::max(std::abs(x[1]) - 12, std::sin(angle) * (std::abs(x[0]) - 20) - std::cos(angle) * x[1]);
+    };
+    const auto fitted = fit_particles(flaring, Box<double, 2>{{-30, -13}, {30, 13}}, 1.0);
+    EXPECT_TRUE(std::all_of(fitted.layers.begin(), fitted.layers.end(), [](int n) { return n == 0; })) << degrees;
+  }
+}
+
 TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
   const Plate plate{2.7};
   const hmps::FitSettings settings{.iterations = 30};
