@@ -22,7 +22,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 [[nodiscard]] double spacing_of(int layers) { return wall / layers; }
 
 /// The torque in uN m of a strip of 72 x 18 mm along x and y, whose one end is turned about x.
-[[nodiscard]] double turned_strip(const Placement& at, int layers) {
+[[nodiscard]] double turned_strip(const Placement& at, int layers, bool own_volumes) {
   constexpr double length = 72e-3, width = 18e-3, angle = 0.02;
   const double l0 = spacing_of(layers), clamp = length / 2 - l0 / 2;
   const auto part = [&](double from, double to) {
@@ -31,7 +31,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
   };
   const Piece middle = part(-clamp, clamp), fixed = part(-length / 2 - held, -clamp),
               turned = part(clamp, length / 2 + held);
-  FittedBody body(l0, {middle, fixed, turned}, Choice::thin_wall, layers, material());
+  FittedBody body(l0, {middle, fixed, turned}, Choice::thin_wall, layers, material(), own_volumes);
   const std::size_t first_turned = middle.size() + fixed.size(), all = first_turned + turned.size();
   for (std::size_t i = 0; i < all; ++i) {
     const Vector X = at.local(body.reference(i));
@@ -43,7 +43,8 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
   const std::vector<Vector>& forces = body.internal_forces();
   Vector sum = Vector::Zero();
   for (std::size_t i = first_turned; i < all; ++i)
-    sum += std::pow(l0, 3) * (body.position(i) - at.moved).cross(forces[i]);
+    sum += (own_volumes ? turned.volumes[i - first_turned] : std::pow(l0, 3)) *
+           (body.position(i) - at.moved).cross(forces[i]);
   return -1e6 * sum.dot(at.direction(Vector(1, 0, 0)));
 }
 
@@ -80,15 +81,15 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 
 }  // namespace
 
-report::Table twisted_strip(bool quick) {
-  return compared({.name = "strip",
-                   .of = "the strip",
+report::Table twisted_strip(bool quick, bool own_volumes) {
+  return compared({.name = own_volumes ? "strip_volumes" : "strip",
+                   .of = own_volumes ? "the strip of own volumes" : "the strip",
                    .measured = "torque (uN m)",
                    .answer = 1e6 * torque,
                    .digits = 3,
                    .layers = {2, 3, 4},
                    .placements = {6, 4, 3},
-                   .measure = turned_strip,
+                   .measure = [=](const Placement& at, int layers) { return turned_strip(at, layers, own_volumes); },
                    .spacing = spacing_of},
                   quick);
 }

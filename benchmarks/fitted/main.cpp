@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
     if (wanted("half-cylinder")) study.publish(fitted::half_cylinder(study.quick));
     if (wanted("half-ball")) study.publish(fitted::half_ball(study.quick));
     // Not in a quick run, which is a test: they miss their bounds; see the page.
-    if (wanted("strip") && !study.quick) study.publish(fitted::twisted_strip(false));
+    for (const bool own_volumes : {false, true})
+      if (wanted("strip") && !study.quick) study.publish(fitted::twisted_strip(false, own_volumes));
     if (wanted("leaf") && !study.quick) study.publish(fitted::leaf(false));
     if (wanted("wedge")) study.publish(fitted::wedge(study.quick));
     if (wanted("junction")) study.publish(fitted::junction(study.quick));

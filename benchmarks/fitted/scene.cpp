@@ -57,13 +57,20 @@ std::string name(Choice choice) {
 }
 
 FittedBody::FittedBody(double spacing, const std::vector<Piece>& pieces, Choice choice, int layers,
-                       const hmps::MooneyRivlin<>& material)
+                       const hmps::MooneyRivlin<>& material, bool own_volumes)
     : moving_(pieces.front().size()), body_(spacing, [&] {
         std::vector<Vector> all;
         for (const Piece& piece : pieces) all.insert(all.end(), piece.positions.begin(), piece.positions.end());
         return all;
       }()) {
-  bonds_ = std::make_unique<hmps::BondList<double, 3>>(body_.X(), hmps::BondSettings{.spacing = spacing});
+  if (own_volumes) {
+    std::vector<double> volumes;
+    for (const Piece& piece : pieces) volumes.insert(volumes.end(), piece.volumes.begin(), piece.volumes.end());
+    bonds_ = std::make_unique<hmps::BondList<double, 3>>(body_.X(), hmps::BondSettings{.spacing = spacing},
+                                                         hmps::scalars(volumes));
+  } else {
+    bonds_ = std::make_unique<hmps::BondList<double, 3>>(body_.X(), hmps::BondSettings{.spacing = spacing});
+  }
   hmps::MooneyRivlin<> law = material;
   const double shear = law.shear_modulus(), bulk = law.bulk_modulus();
   hmps::SheetStabiliser<double> even{hmps::shear_wave_modulus(shear), {bulk, 0.0}};

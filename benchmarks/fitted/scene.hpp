@@ -69,9 +69,10 @@ enum class Choice {
 /// A body of pieces, the first of which moves while the others are held.
 class FittedBody {
  public:
-  /// `layers`: what `sheet_stabiliser` is told.
+  /// `layers`: what `sheet_stabiliser` is told. Each particle stands for its own volume if `own_volumes`, else for the
+  /// cube of the spacing.
   FittedBody(double spacing, const std::vector<Piece>& pieces, Choice choice, int layers,
-             const hmps::MooneyRivlin<>& law);
+             const hmps::MooneyRivlin<>& law, bool own_volumes = false);
 
   [[nodiscard]] std::size_t moving() const { return moving_; }
   [[nodiscard]] const Vector& reference(std::size_t i) const { return body_.reference[i]; }
@@ -137,7 +138,7 @@ struct Comparison {
 [[nodiscard]] report::Table bent_strip(bool quick);     ///< bend.cpp
 [[nodiscard]] report::Table half_cylinder(bool quick);  ///< shells.cpp
 [[nodiscard]] report::Table half_ball(bool quick);
-[[nodiscard]] report::Table twisted_strip(bool quick);  ///< clamped.cpp
+[[nodiscard]] report::Table twisted_strip(bool quick, bool own_volumes);  ///< clamped.cpp
 [[nodiscard]] report::Table wedge(bool quick);
 [[nodiscard]] report::Table junction(bool quick);
 [[nodiscard]] report::Table leaf(bool quick);  ///< leaf.cpp

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "hmps/bonds/bond_runs.hpp"
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/cloud_order.hpp"
 #include "hmps/bonds/own_bonds.hpp"
@@ -18,6 +19,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/places.hpp"
+#include "hmps/lanes/volume_shares.hpp"
 #include "hmps/search/fixed_radius.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -44,28 +46,24 @@ class BondList : public Blocks<K, D> {
   /// not span space, a spacing that does not fit the cloud (another unit, or far too large or small), a predicate that
   /// is not symmetric (unless particles may be unbonded), and a weight that is negative or not finite.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
-  explicit BondList(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
-                    Weight&& weight = {})
+  requires(!detail::IsScalarView<std::remove_cvref_t<Bonded>>::value) explicit BondList(
+      const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {}, Weight&& weight = {})
       : Base(reference, checked_order(reference, settings)) {
-    const double radius = settings.spacing * settings.radius_ratio;
-    using S = typename VectorView<T, D>::Scalar;
-    // Rounding in the user's scalar type must not decide whether a lattice neighbour is bonded.
-    const auto reach = static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())));
-    const FixedRadiusSearch<T, D> search(reference);
-    detail::require_plausible_spacing(search, settings, reach);
-    const NeighbourList list = find_neighbours(search, reach);
-    keep_bonds(
-        static_cast<double>(reach),
-        [&](Index i, const auto& keep) {
-          for (const Index j : list[i]) {
-            if (!detail::are_bonded(bonded, std::size_t{i}, std::size_t{j}, settings.unbonded)) continue;
-            const Vector<double, D> r0 = this->reference(j) - this->reference(i);
-            const double w = weight(std::min(r0.norm(), radius), radius);
-            detail::require_weight(w, r0.norm());
-            if (w > 0) keep(j, r0, w);
-          }
-        },
-        settings.unbonded);
+    find_bonds(reference, settings, bonded, weight);
+  }
+
+  /// The same for particles of unlike `volumes` (m3; in 2D m2), such as those of `fit_particles`. The weight of a bond
+  /// of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material, and forces per volume
+  /// times the volume of each particle are the gradient of the energy of those volumes; they and their moments sum to
+  /// zero. Energies and momenta must be given the same volumes. Costs nothing in a sweep. Throws `InputError` also for
+  /// a volume that is not positive, and volumes of a mean that differs from l0^D by more than a factor of 8, as in
+  /// another unit.
+  template <class T, class V, class Bonded = EveryBond, class Weight = PaperWeight>
+  BondList(const VectorView<T, D>& reference, const BondSettings& settings, const ScalarView<V>& volumes,
+           Bonded&& bonded = {}, Weight&& weight = {})
+      : Base(reference, checked_order(reference, settings)),
+        shares_(detail::volume_shares<D>(volumes, reference.size(), settings.spacing), *this) {
+    find_bonds(reference, settings, bonded, weight);
   }
 
   /// User-defined bonds: `neighbours` (`BondNeighbours`) specifies the bonds; `weights` is one number, one number per
@@ -86,12 +84,12 @@ class BondList : public Blocks<K, D> {
   template <class Visit>
   void for_each_bond(std::size_t i, Visit&& visit) const {
     const std::size_t own = this->slot(i), block = own / width, l = own % width;
-    const std::int32_t* start = starts_.data() + groups_[block].start;
-    for (std::size_t row = groups_[block].row; row < groups_[block + 1].row; ++row) {
-      const bool split = row >= groups_[block].split;
+    const std::int32_t* start = runs_.starts.data() + runs_.groups[block].start;
+    for (std::size_t row = runs_.groups[block].row; row < runs_.groups[block + 1].row; ++row) {
+      const bool split = row >= runs_.groups[block].split;
       const std::int32_t first = start[split && l >= half_width ? 1 : 0];
       start += split ? 2 : 1;
-      const K w = weights_[row].lane[l];
+      const K w = runs_.weights[row].lane[l];
       if (!(w > K(0))) continue;
       const auto slot = static_cast<std::size_t>(first + static_cast<std::int32_t>(l));
       Vector<K, D> r0;
@@ -103,16 +101,18 @@ class BondList : public Blocks<K, D> {
     }
   }
 
-  [[nodiscard]] std::size_t bytes() const {
-    return Base::bytes() + places_.bytes() + weights_.size() * sizeof(Lanes<K>) +
-           starts_.size() * sizeof(std::int32_t) + groups_.size() * sizeof(Group);
-  }
+  /// V / l0^D of a particle; 1 if the bonds were given no volumes.
+  [[nodiscard]] double volume_share(std::size_t i) const { return shares_.of(this->slot(i)); }
+  /// The same for the particles of `block`.
+  [[nodiscard]] HMPS_INLINE Lanes<K> volume_share_lanes(std::size_t block) const { return shares_.lanes(block); }
+
+  [[nodiscard]] std::size_t bytes() const { return Base::bytes() + places_.bytes() + shares_.bytes() + runs_.bytes(); }
 
   /// The slot from which on the last of the rows of `block` without a split reads.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
-    const Group& group = groups_[block];
+    const auto& group = runs_.groups[block];
     if (group.split == group.row) return block * width;
-    return static_cast<std::size_t>(std::max(starts_[group.start + group.split - group.row - 1], 0));
+    return static_cast<std::size_t>(std::max(runs_.starts[group.start + group.split - group.row - 1], 0));
   }
 
   /// A row: at most one bond per lane of a block. The neighbour of lane l is slot `first + l`, or for the second half
@@ -153,11 +153,11 @@ class BondList : public Blocks<K, D> {
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
     Lanes<K> own[std::size_t{D}];
     for (int c = 0; c < D; ++c) own[c] = detail::load(places_.slots(*this, c) + block * width);
-    const Group &group = groups_[block], &next = groups_[block + 1];
-    const Lanes<K>* weights = weights_.data() + group.row;
-    const Lanes<K>* const split = weights_.data() + group.split;
-    const Lanes<K>* const end = weights_.data() + next.row;
-    const std::int32_t* start = starts_.data() + group.start;
+    const auto &group = runs_.groups[block], &next = runs_.groups[block + 1];
+    const Lanes<K>* weights = runs_.weights.data() + group.row;
+    const Lanes<K>* const split = runs_.weights.data() + group.split;
+    const Lanes<K>* const end = runs_.weights.data() + next.row;
+    const std::int32_t* start = runs_.starts.data() + group.start;
     for (; weights != split; ++weights, ++start) {
       detail::prefetch(weights + ahead);
       visit(Row<false>(*this, own, *weights, start));
@@ -170,6 +170,29 @@ class BondList : public Blocks<K, D> {
 
  private:
   static constexpr std::size_t half_width = width / 2;
+
+  template <class T, class Bonded, class Weight>
+  void find_bonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded& bonded, Weight& weight) {
+    const double radius = settings.spacing * settings.radius_ratio;
+    using S = typename VectorView<T, D>::Scalar;
+    // Rounding in the user's scalar type must not decide whether a lattice neighbour is bonded.
+    const auto reach = static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())));
+    const FixedRadiusSearch<T, D> search(reference);
+    detail::require_plausible_spacing(search, settings, reach);
+    const NeighbourList list = find_neighbours(search, reach);
+    keep_bonds(
+        static_cast<double>(reach),
+        [&](Index i, const auto& keep) {
+          for (const Index j : list[i]) {
+            if (!detail::are_bonded(bonded, std::size_t{i}, std::size_t{j}, settings.unbonded)) continue;
+            const Vector<double, D> r0 = this->reference(j) - this->reference(i);
+            const double w = weight(std::min(r0.norm(), radius), radius);
+            detail::require_weight(w, r0.norm());
+            if (w > 0) keep(j, r0, w * volume_share(j));
+          }
+        },
+        settings.unbonded);
+  }
 
   template <class T>
   BondList(const VectorView<T, D>& reference, const detail::OwnBonds& own)
@@ -185,10 +208,9 @@ class BondList : public Blocks<K, D> {
   template <class Visit>
   void keep_bonds(double reach, Visit&& visit, bool unbonded = false) {
     places_ = detail::Places<K, D>(*this, reach);
-    groups_.reserve(this->block_count() + 1);
-    groups_.push_back({});
+    runs_.reserve(this->block_count());
     ShapeTensor<D> fullest;
-    std::array<std::vector<Bond>, 2> halves;
+    std::array<std::vector<typename detail::BondRuns<K>::Bond>, 2> halves;
     for (std::size_t block = 0; block < this->block_count(); ++block) {
       for (auto& half : halves) half.clear();
       for (std::size_t l = 0; l < width; ++l) {
@@ -202,28 +224,15 @@ class BondList : public Blocks<K, D> {
         this->keep_shape(i, shape.inverse(i, unbonded), shape.asymmetry, shape.A.trace());
         if (shape.weight > fullest.weight) fullest = shape;
       }
-      add_rows(halves);
+      runs_.add(halves);
     }
     detail::require_standard_weight(fullest.weight);
     // Where no particle has a bond nothing is summed, whatever the scale.
     if (this->size() > 0)
       this->keep_standard(fullest.weight > 0 ? fullest.weight : 1,
                           fullest.weight > 0 ? fullest.A.trace() / fullest.weight : 1);
-    weights_.resize(weights_.size() + ahead, Lanes<K>(K(0)));  // padding for the prefetch
-    weights_.shrink_to_fit();
-    starts_.shrink_to_fit();
+    runs_.pad(ahead);
   }
-
-  /// A bond of one lane; its neighbour is slot `first + lane`.
-  struct Bond {
-    std::int32_t first;
-    std::uint32_t lane;
-    K w;
-  };
-  /// The first row of a block, its first split row, and the first entry of its runs in `starts_`.
-  struct Group {
-    std::uint32_t row = 0, split = 0, start = 0;
-  };
 
   template <class T>
   [[nodiscard]] static std::vector<Index> checked_order(const VectorView<T, D>& reference,
@@ -236,54 +245,11 @@ class BondList : public Blocks<K, D> {
     return static_cast<std::int32_t>(neighbour) - static_cast<std::int32_t>(lane);
   }
 
-  /// Adds the rows of the next block from the bonds of both halves of its lanes: one row for each run that both halves
-  /// have, then one for each pair of runs that only one half has.
-  void add_rows(std::array<std::vector<Bond>, 2>& halves) {
-    std::array<std::vector<std::size_t>, 2> alone;  // where in `halves` a run begins
-    const auto run = [&](std::size_t h, std::size_t k) {
-      if (k >= halves[h].size()) return std::numeric_limits<std::int32_t>::max();
-      return halves[h][k].first;
-    };
-    /// Writes the weights of the run at `k` of one half into the row; returns the start of the next run.
-    const auto fill = [&](std::size_t h, std::size_t k, Lanes<K>& row) {
-      const std::int32_t first = run(h, k);
-      for (; run(h, k) == first && k < halves[h].size(); ++k) row.lane[halves[h][k].lane] = halves[h][k].w;
-      return k;
-    };
-    for (auto& half : halves)
-      std::sort(half.begin(), half.end(), [](const Bond& a, const Bond& b) { return a.first < b.first; });
-    Lanes<K> skipped;
-    for (std::array<std::size_t, 2> k{0, 0}; k[0] < halves[0].size() || k[1] < halves[1].size();) {
-      const std::int32_t first = run(0, k[0]), second = run(1, k[1]);
-      if (first == second) {
-        starts_.push_back(first);
-        Lanes<K>& row = weights_.emplace_back(K(0));
-        for (std::size_t h = 0; h < 2; ++h) k[h] = fill(h, k[h], row);
-      } else {
-        const std::size_t h = first < second ? 0 : 1;
-        alone[h].push_back(k[h]);
-        k[h] = fill(h, k[h], skipped);
-      }
-    }
-    groups_.back().split = static_cast<std::uint32_t>(weights_.size());
-    for (std::size_t k = 0; k < std::max(alone[0].size(), alone[1].size()); ++k) {
-      Lanes<K>& row = weights_.emplace_back(K(0));
-      for (std::size_t h = 0; h < 2; ++h) {
-        // A half without a run reads the run of the other half.
-        const std::size_t of = k < alone[h].size() ? h : 1 - h;
-        starts_.push_back(run(of, alone[of][k]));
-        if (of == h) fill(h, alone[h][k], row);
-      }
-    }
-    groups_.push_back({static_cast<std::uint32_t>(weights_.size()), 0, static_cast<std::uint32_t>(starts_.size())});
-  }
-
   /// Prefetch distance of weights in rows; without it, the sweeps wait for them.
   static constexpr std::size_t ahead = 12;
+  detail::VolumeShares<K> shares_;
   detail::Places<K, D> places_;
-  std::vector<Lanes<K>> weights_;     ///< Of each row.
-  std::vector<std::int32_t> starts_;  ///< From which slot on the runs of a row read, one or, if it is split, two.
-  std::vector<Group> groups_;         ///< Of each block, and one behind the last.
+  detail::BondRuns<K> runs_;
 };
 
 }  // namespace hmps::inline HMPS_ABI

@@ -22,6 +22,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/parts_of_force.hpp"
+#include "hmps/lanes/volume_shares.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -130,8 +131,9 @@ template <Bonds B, class Gradients, class E>
   });
   for (int pass = 0; pass < means; ++pass) {
     execute(bonds.size(), [&](std::size_t i) {
-      double sum = scale(i) * theta[i];
-      bonds.for_each_bond(i, [&](std::size_t j, const auto&, auto) { sum += scale(j) * theta[j]; });
+      double sum = volume_share(bonds, i) * scale(i) * theta[i];
+      bonds.for_each_bond(
+          i, [&](std::size_t j, const auto&, auto) { sum += volume_share(bonds, j) * scale(j) * theta[j]; });
       mean[i] = scale(i) * sum;
     });
     std::swap(theta, mean);

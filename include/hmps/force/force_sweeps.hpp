@@ -16,6 +16,7 @@
 #include "hmps/force/parts_of_force.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/staging.hpp"
+#include "hmps/lanes/volume_shares.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/term.hpp"
 
@@ -72,15 +73,15 @@ class ForceSweeps {
     }
   }
 
-  /// First sweep of the mean dilatation: F, stored in the memory of the coupling, and d (J - 1).
+  /// First sweep of the mean dilatation: F, stored in the memory of the coupling, and v d (J - 1).
   void dilate(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const Matrix<T, D> F =
         detail::deformation_gradient_lanes(bonds, block, displacement_, bonds.shape_inverse_lanes(block));
     for (int k = 0; k < D * D; ++k) coupling_.keep(static_cast<std::size_t>(k), slot, F(k % D, k / D));
-    dilatation_.keep(0, slot, scales_.lanes(0, slot) * (determinant(F) - T(1)));
+    dilatation_.keep(0, slot, carried_scale(bonds, block) * (determinant(F) - T(1)));
   }
-  /// Second sweep of the mean dilatation: d U'(theta).
+  /// Second sweep of the mean dilatation: v d U'(theta).
   void press(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
@@ -91,13 +92,14 @@ class ForceSweeps {
     const BlockOfParticles<K, D> particles(bonds, block, F, inverse);
     T pressure(0);
     std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
-    kept.keep(0, slot, d * pressure);
+    kept.keep(0, slot, carried_scale(bonds, block) * pressure);
   }
   /// If the mean is taken twice: the other mean, of the dilatation before `press`, of the pressure after it.
   void average(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
-    pressure_.keep(0, slot, d * (d * detail::sum_over_neighbourhood(bonds, block, dilatation_)));
+    pressure_.keep(0, slot,
+                   carried_scale(bonds, block) * (d * detail::sum_over_neighbourhood(bonds, block, dilatation_)));
   }
   /// Computes the coupling of the particles of `block`.
   void couple(const B& bonds, std::size_t block) {
@@ -264,6 +266,11 @@ class ForceSweeps {
     const T length = state.length();
     const T share = select(w > K(0), select(length > K(0), tension / length, T(0)), T(0));
     for (int d = 0; d < D; ++d) force[d] += share * (r0[d] + relative[d]);
+  }
+
+  /// The d of a particle in the sums of others: v d, where v = V / l0^D.
+  [[nodiscard]] HMPS_INLINE T carried_scale(const B& bonds, std::size_t block) const {
+    return detail::volume_share_lanes(bonds, block) * scales_.lanes(0, block * B::width);
   }
 
   [[nodiscard]] Matrix<T, D> kept_gradient(std::size_t block) const {

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <limits>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "bonds_of_a_scene.hpp"
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/bonds.hpp"
@@ -104,6 +107,37 @@ TEST(BondList, TakesAnotherWeightAndRadius) {
     EXPECT_EQ(w, 2.0f);
   });
   EXPECT_EQ(neighbours, 6);
+}
+
+TEST(BondList, CarriesTheVolumesOfItsParticles) {
+  using Bonds = hmps::BondList<double, 3>;
+  using hmps_test::message_of;
+  const auto places = scenes::box<3>(scenes::extent<3>(5, 4, 3));
+  const auto X = hmps::vectors(places);
+  const double l0 = scenes::Scene<3>::spacing;
+  std::vector<double> volumes(places.size(), l0 * l0 * l0);
+  const Bonds plain(X, {.spacing = l0}), like(X, {.spacing = l0}, hmps::scalars(volumes));
+  EXPECT_EQ(plain.volume_share(7), 1);
+  EXPECT_NEAR(like.volume_share(7), 1, 1e-14);
+  volumes[7] *= 3;
+  const Bonds unlike(X, {.spacing = l0}, hmps::scalars(volumes));
+  EXPECT_NEAR(unlike.volume_share(7), 3, 1e-14);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    std::map<std::size_t, double> weights;
+    plain.for_each_bond(i, [&](std::size_t j, const auto&, double w) { weights[j] = w; });
+    unlike.for_each_bond(i, [&](std::size_t j, const auto&, double w) {
+      EXPECT_NEAR(w, (j == 7 ? 3 : 1) * weights[j], 1e-14) << i << ' ' << j;
+    });
+  }
+  const auto refused = [&](const std::string& text) {
+    EXPECT_NE(message_of([&] { Bonds(X, {.spacing = l0}, hmps::scalars(volumes)); }).find(text), std::string::npos);
+  };
+  volumes[7] = std::numeric_limits<double>::quiet_NaN();
+  refused("the volume of particle 7 is");
+  for (double& own : volumes) own = 1e9 * l0 * l0 * l0;
+  refused("the cube of the spacing");
+  volumes.pop_back();
+  refused("volumes");
 }
 
 TEST(BondList, OfNoParticlesIsEmpty) {

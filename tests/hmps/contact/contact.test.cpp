@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "../../reference/message_of.hpp"
+#include "../../reference/scenes.hpp"
 #include "bodies.hpp"
+#include "hmps/diagnostics/momentum.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 #include "plain_contact.hpp"
 
@@ -426,6 +428,30 @@ TEST(Kick, IsWhatTheForcesGive) {
                hmps::InputError);
   EXPECT_THROW(kicks.kick(hmps::vectors(touching.x), hmps::vectors(v), hmps::matrices(pile.F), 1000, 0),
                hmps::InputError);
+}
+
+// Particles of unlike volumes: with the mass of each over l0^3 as its density, contact conserves momentum.
+TEST(Kick, ConservesTheMomentumOfUnlikeVolumes) {
+  bodies::Pile<double, 3> pile(0.9);
+  pile.shake(0.05, 0.03, 5);
+  MetaballContact<double, 3> contact(with_friction);
+  pile.declare(contact);
+  scenes::Random random(3);
+  std::vector<double> volumes(pile.x.size());
+  for (double& own : volumes) own = std::pow(pile.l0, 3) * random(0.9, 1.6);
+  const auto V = hmps::scalars(volumes);
+  const double cube = std::pow(pile.l0, 3);
+  auto v = pile.v;
+  const auto seen = contact.kick(
+      hmps::vectors(pile.x), hmps::vectors(v), hmps::matrices(pile.F),
+      [&](const auto& at) { return 1200 * at(V) / cube; }, dt);
+  ASSERT_GT(seen.contacts, 4U);
+  const auto before = hmps::linear_momentum(hmps::vectors(pile.v), 1200, V),
+             after = hmps::linear_momentum(hmps::vectors(v), 1200, V);
+  double gain = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) gain = std::max(gain, 1200 * volumes[i] * (v[i] - pile.v[i]).norm());
+  EXPECT_GT(gain, 0);
+  EXPECT_LE((after - before).norm(), 1e-12 * gain + 1e-15 * before.norm());
 }
 
 TEST(Kick, RefusesWhatIsTooLightForThePenalty) {

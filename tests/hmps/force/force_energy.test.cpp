@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -75,6 +77,45 @@ TEST(ForceEnergy, IsWhatTheForceIsMinusTheGradientOf) {
   expect(hmps::internal_force(s.bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::mean_dilatation(share.mean),
                               hmps::gravity(1000, Vec(3, -9.81)), Springs{1e9}, OwnTerm{1e8}));
   expect(hmps::internal_force(s.bonds, hmps::mean_dilatation<2>(share.mean), Both{{1e9}, {1e8}}));
+}
+
+// With the volume of each particle, it is the force times that volume which is minus the gradient, and which sums to
+// zero, as does its moment; so does the viscous one.
+TEST(ForceEnergy, OfUnlikeVolumesIsWhatTheForceTimesTheVolumeIsMinusTheGradientOf) {
+  const Scene s;
+  const std::size_t n = s.scene.x.size();
+  scenes::Random random(5);
+  std::vector<double> volumes(n);
+  for (double& own : volumes) own = s.volume * random(0.5, 1.5);
+  const auto V = hmps::scalars(volumes);
+  const Bonds bonds(hmps::vectors(s.scene.reference), {.spacing = s.scene.spacing}, V, s.scene.bonded);
+  const auto x = hmps::vectors(s.scene.x), v = hmps::vectors(s.scene.v);
+  auto moved = Expected<2>::convert(s.scene.x);
+  Vectors<2> f(n);
+  const auto sums_to_zero = [&](bool moment) {
+    Vec sum = Vec::Zero();
+    double turn = 0, largest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += volumes[i] * f[i];
+      turn += volumes[i] * (s.scene.x[i][0] * f[i][1] - s.scene.x[i][1] * f[i][0]);
+      largest = std::max(largest, volumes[i] * f[i].norm());
+    }
+    EXPECT_LE(sum.norm(), 1e-11 * largest);
+    EXPECT_LE(moment ? std::abs(turn) : 0, 1e-11 * largest);
+  };
+  const auto expect = [&](auto force) {
+    force(x, v, hmps::vectors(f));
+    sums_to_zero(true);
+    for (std::size_t i = 0; i < n; ++i) f[i] *= volumes[i] / s.volume;
+    expect_minus_gradient<2>(
+        f, moved, [&] { return force.energy(hmps::vectors(moved), V).total() / s.volume; }, s.scene.spacing, 0);
+  };
+  const auto law = hmps::MooneyRivlin<double>{1700, 1500, 1e4};
+  expect(hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::mean_dilatation(1e6)));
+  expect(hmps::internal_force(bonds, hmps::mean_dilatation<2>(1e6), Both{{1e9}, {1e8}}));
+  auto viscosity = hmps::internal_force(bonds, hmps::viscous(1000, 2e-3));
+  viscosity(x, v, hmps::vectors(f));
+  sums_to_zero(false);
 }
 
 // Term by term it is what the diagnostics compute from the same deformation gradients; what keeps no energy has none.
