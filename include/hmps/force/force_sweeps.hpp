@@ -181,6 +181,7 @@ class ForceSweeps {
   template <class Term>
   static void check(const Term& term, const B& bonds) {
     if constexpr (requires { term.check(bonds.size()); }) term.check(bonds.size());
+    if constexpr (PairTerm<Term, K, D>) require_tensions(term, bonds);
     if constexpr (requires(const BlockOfParticles<K, D>& particles) { term.check_parameters(particles); }) {
       // Stretched and sheared by a thousandth: laws respond, and none is beyond its range.
       Matrix<T, D> F;

@@ -2,9 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <type_traits>
 
+#include "hmps/bonds/bonds.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/inline.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/lanes/lanes.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -40,5 +47,25 @@ struct PartsOfForce {
   static constexpr bool damps = damps_each || (DampingTerm<Terms, K, D> || ...);
   static constexpr bool acts = (BodyForceTerm<Terms, K, D> || ...);
 };
+
+/// Throws `InputError` if the tension of `term` is not finite in a bond stretched by a thousandth.
+template <class Term, Bonds B>
+HMPS_COLD void require_tensions(const Term& term, const B& bonds) {
+  using T = Lanes<typename B::Scalar>;
+  constexpr int D = B::dimension;
+  for (std::size_t block = 0; block < bonds.block_count(); ++block)
+    bonds.for_each_row(block, [&](const auto& bond) {
+      Vector<T, D> r0, relative;
+      for (int d = 0; d < D; ++d) {
+        r0[d] = bond.along(d) ? T(bond.offset(d)) : T(typename B::Scalar(0));
+        relative[d] = r0[d] * T(typename B::Scalar(1e-3));
+      }
+      const T w = bond.weight(), tension = term.tension(BondState<T, D>(r0, relative, w));
+      for (int l = 0; l < T::width; ++l)
+        require(!(w.lane[l] > 0) || is_finite(tension.lane[l]), "hmps: a pair term pulls particle ",
+                bonds.particle(block * B::width + static_cast<std::size_t>(l)), " by ", tension.lane[l],
+                " N/m3 along a bond that is stretched by a thousandth; check its parameters and formula");
+    });
+}
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -18,6 +18,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/text_file.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/output/file_replacement.hpp"
@@ -222,13 +223,20 @@ class VtuSeries {
   }
 
   /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection. Throws `InputError` as that
-  /// does, and for a time that does not follow that of the frame before: ParaView would show one of the two.
+  /// does, and for a time that does not follow that of the frame before: ParaView would show one of the two. Throws
+  /// `StateError` if the collection is no longer as this series left it, as where a second series writes to the same
+  /// path.
   template <class T, int D>
   void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
            VtuSettings settings = {}) {
     detail::require(frames_.empty() || time > frames_.back().first, "hmps: a frame of ", path_.string(), " at ", time,
                     " s follows one at ", frames_.empty() ? 0.0 : frames_.back().first,
                     " s; times must grow from frame to frame");
+    if (std::error_code missing; std::filesystem::exists(path_, missing))
+      if (detail::read_text(path_.string()) != pvd_text(frames_))
+        throw StateError(detail::message("hmps: ", path_.string(), " has changed since this series wrote its frame ",
+                                         frames_.size(),
+                                         "; another series or program writes to it: give each a path of its own"));
     settings.time = time;
     const std::string number = std::to_string(frames_.size());
     const std::string name =

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "../bonds/bonds_of_a_scene.hpp"
 #include "equations.hpp"
 #include "hmps/force/deformation_gradient.hpp"
@@ -357,5 +358,21 @@ concept TakesTemporaryBonds = requires(B&& bonds) {
   hmps::internal_force(std::move(bonds));
 };
 static_assert(!TakesTemporaryBonds<Lattice>);
+
+struct Pull {
+  double strength;
+  template <class T, int D>
+  T tension(const hmps::BondState<T, D>& bond) const {
+    return T(static_cast<float>(strength)) * bond.weight() / bond.elongation();
+  }
+};
+// When the force is made, not by a state that is NaN many steps later.
+TEST(InternalForce, RefusesAPairTermThatIsNotFinite) {
+  const auto bonds = make_bonds<Lattice>(scene_of("shuffled"));
+  const auto text =
+      hmps_test::message_of([&] { (void)hmps::internal_force(bonds, Pull{std::numeric_limits<double>::quiet_NaN()}); });
+  EXPECT_NE(text.find("a pair term pulls particle"), std::string::npos) << text;
+  EXPECT_NO_THROW((void)hmps::internal_force(bonds, Pull{1}));  // infinite at rest only
+}
 
 }  // namespace internal_force_use_test

@@ -102,6 +102,19 @@ TEST(VtuFile, VtkReadsItBack) {
   EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
 }
 
+TEST(VtuFileMisuse, TwoSeriesOnOnePathAreNoticed) {
+  const Cloud cloud;
+  const hmps_test::TemporaryFolder folder;
+  VtuSeries first(folder.path() / "run.pvd");
+  first.add(0, vectors(cloud.x));
+  VtuSeries second(folder.path() / "run.pvd");
+  EXPECT_THROW(first.add(1, vectors(cloud.x)), StateError);
+  second.add(0, vectors(cloud.x));
+  std::filesystem::remove(folder.path() / "run.pvd");  // written anew, with all its frames
+  second.add(1, vectors(cloud.x));
+  EXPECT_EQ(detail::read_text((folder.path() / "run.pvd").string()), pvd_text(second.frames()));
+}
+
 TEST(VtuFileMisuse, IsRefused) {
   const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
   const hmps_test::TemporaryFolder folder;
