@@ -119,11 +119,14 @@ template <class Of>
 /// What to do, from the figures.
 [[nodiscard]] inline std::string rules_of(const std::vector<Found>& all) {
   const auto error_of = [](const Found& row) { return row.error(); };
+  const auto drag_of = [](const Found& row) { return row.drag(); };
+  const std::string least_above =
+      places(1e-4 * std::floor(1 + 1e4 * worst(all, "smooth", Made::fitted, false, drag_of)), 4);
   const auto error = [&](const std::string& kernel, Made made, bool along, Part part = Part::wall) {
     return percent(worst(all, kernel, made, along, error_of, part));
   };
-  const auto drag = [&](const std::string& kernel, Made made, int count = 3) {
-    return places(worst(all, kernel, made, false, [](const Found& row) { return row.drag(); }), count);
+  const auto drag = [&](const std::string& kernel, Made made) {
+    return places(worst(all, kernel, made, false, drag_of));
   };
   const auto time = [&](const std::string& kernel) {
     const auto seconds = [](const Found& row) { return row.rough.seconds; };
@@ -137,12 +140,11 @@ template <class Of>
           error("smooth", Made::cut, true) + " of the friction coefficient at most, `PaperMetaball` by " +
           error("paper", Made::cut, true) + ".",
       "Or fit them, whatever their form: with `fit_particles` and `SmoothMetaball` the friction errs by " +
-          error("smooth", Made::fitted, false) + " at most, and a slide without friction is dragged by " +
-          drag("smooth", Made::fitted, 4) +
-          " of the normal force, at any angle. A fitted block on a wall along its lattice errs by " +
+          error("smooth", Made::fitted, false) + " at most, and a slide without friction is dragged by less than " +
+          least_above + " of the normal force, at any angle. A fitted block on a wall along its lattice errs by " +
           error("smooth", Made::fitted, false, Part::block) + ", one on a fitted wall by " +
           error("smooth", Made::fitted, false, Part::both) + ". With `PaperMetaball` a fitted wall errs by " +
-          error("paper", Made::fitted, false) + ", less than one along its lattice, since its bumps are in no row.",
+          error("paper", Made::fitted, false) + ".",
       "Where a surface has to cut the lattice, let contact see it through `SurfaceCorrection`: with `SmoothMetaball` "
       "the "
       "friction errs by " +
