@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     if (!study.quick) measure<hmps::PaperMetaball>("paper", Part::wall, study.quick, all);
     measure<hmps::SmoothMetaball>("smooth", Part::wall, study.quick, all);
     if (!study.quick) measure<hmps::SmoothMetaball>("smooth", Part::block, study.quick, all);
-    measure<hmps::SmoothMetaball>("smooth", Part::both, study.quick, all);
+    if (!study.quick) measure<hmps::SmoothMetaball>("smooth", Part::both, study.quick, all);
     if (!study.quick) measure<WideMetaball>("wide", Part::wall, study.quick, all);
     study.publish("rules", rules_of(all));
     study.publish(table_of(all),
