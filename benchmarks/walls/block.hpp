@@ -21,35 +21,58 @@ inline constexpr int side = 6, height = 4;                               // of t
 inline constexpr double width = side * spacing;                          // m, of the block
 inline constexpr double lead = 3 * spacing;  // m, before and behind the stretch of wall that is measured
 
+/// What is not along a lattice.
+enum class Part { wall, block, both };
+
 /// A block of soft tissue on a wall: pressed by a rigid plate on its top, that slides along x, or free on an incline.
 struct Scene {
-  double degrees = 0;   ///< between surface and lattice
-  bool raised = false;  ///< contact sees the skin that is cut raised to the surface
+  double degrees = 0;        ///< between surface and lattice, or the samples of a fit
+  Made made = Made::cut;     ///< of the part below
+  Part part = Part::wall;    ///< the others are along their lattice
+  int layers = 4;            ///< of a fitted wall
+  double layer_spacing = 1;  ///< of a fitted wall, in spacings
   double friction = 0;
   double incline = 0;  ///< degrees; free if not zero
-  bool soft = false;   ///< it is the block that is cut, not the wall
   bool viscous = true;
   double settled = 0.08;  ///< s, after which a free block is measured
 
   [[nodiscard]] bool free() const { return incline != 0; }
+  [[nodiscard]] bool along_lattice() const { return degrees == 0 && made != Made::fitted; }
+  /// Of the wall that is measured, in m.
+  [[nodiscard]] double stretch() const { return Wall{.degrees = degrees, .made = made, .spacing = spacing}.stretch(); }
+  [[nodiscard]] Wall wall() const {
+    if (part == Part::block) return {.spacing = spacing};
+    return {.degrees = degrees, .made = made, .spacing = spacing, .layers = layers, .layer_spacing = layer_spacing};
+  }
 };
 
-[[nodiscard]] inline scenes::BlockOnWall parts_of(const Scene& scene, double stretch) {
+/// The block, its surface in z = 0 or, along its lattice, a tenth of a spacing above.
+[[nodiscard]] inline scenes::BlockOnWall block_of(const Scene& scene) {
   scenes::BlockOnWall parts;
-  if (scene.soft) {
-    const double angle = scene.degrees * std::numbers::pi / 180;
+  const double angle = scene.degrees * std::numbers::pi / 180;
+  const auto add = [&](const Point& place, bool is_bottom) {
+    const double z = place[2] / spacing;
+    parts.add(place, is_bottom, z < 3, !scene.free() && z > height - 1);
+  };
+  if (scene.part != Part::wall && scene.made == Made::fitted) {
+    for (const Point& place : fitted(angle, {Point::Zero(), {width, width, height * spacing}}, spacing))
+      add(place, place[2] < spacing);
+  } else if (scene.part != Part::wall) {
     for (const Point& place : lattice(angle, 0.13, {0, 0}, {width, width}, spacing))
-      if (const double z = place[2] / spacing; z > 0 && z < height)
-        parts.add(place, z < std::cos(angle), z < 3, !scene.free() && z > height - 1);
+      if (place[2] > 0 && place[2] < height * spacing) add(place, place[2] < spacing * std::cos(angle));
   } else {
     for (int k = 0; k < height; ++k)
       for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i)
-          parts.add(spacing * Point(i, j, k + 0.6), k == 0, k < 3, !scene.free() && k == height - 1);
+        for (int i = 0; i < side; ++i) add(spacing * Point(i, j, k + 0.6), k == 0);
   }
-  Wall wall{.degrees = scene.soft ? 0 : scene.degrees, .raised = scene.raised && !scene.soft, .spacing = spacing};
+  return parts;
+}
+
+[[nodiscard]] inline scenes::BlockOnWall parts_of(const Scene& scene) {
+  scenes::BlockOnWall parts = block_of(scene);
+  Wall wall = scene.wall();
   const double rim = 4 * spacing;
-  wall.fill({-rim, -rim}, {width + rim + 2 * lead + stretch, width + rim});
+  wall.fill({-rim, -rim}, {width + rim + 2 * lead + scene.stretch(), width + rim});
   for (std::size_t i = 0; i < wall.places.size(); ++i)
     parts.add_to_wall(wall.places[i], std::binary_search(wall.skin.begin(), wall.skin.end(), i));
   return parts;
@@ -73,16 +96,17 @@ class Slide {
  public:
   explicit Slide(const Scene& scene)
       : scene_(scene),
-        stretch_(Wall{.degrees = scene.degrees, .spacing = spacing}.stretch()),
-        block_(parts_of(scene, stretch_), settings(scene),
+        stretch_(scene.stretch()),
+        block_(parts_of(scene), settings(scene),
                [](auto& force, const auto& x, const auto& v) {
                  return 0.6 * std::sqrt(1 - ratio) * hmps::stable_step(force, x, v, density, {.spacing = spacing}).step;
                }),
         reference_(block_.position),
         seen_(block_.position),
-        raise_(block_.block(hmps::vectors(reference_)),
-               scene.soft && scene.raised ? block_.parts.bottom : std::vector<hmps::Index>{},
-               hmps::HalfSpace<double, 3>{Point::Zero(), -Point::UnitZ()}, spacing) {
+        raise_(
+            block_.block(hmps::vectors(reference_)),
+            scene.part == Part::block && scene.made == Made::raised ? block_.parts.bottom : std::vector<hmps::Index>{},
+            hmps::HalfSpace<double, 3>{Point::Zero(), -Point::UnitZ()}, spacing) {
     set_down();
   }
 

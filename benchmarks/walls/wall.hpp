@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <hmps/hmps.hpp>
@@ -32,59 +33,103 @@ using Point = hmps::Vector<double, 3>;
   return places;
 }
 
-/// A rigid wall below z = 0 that is cut out of a lattice: `degrees` between its surface and the lattice, about y.
+/// How a body gets its particles, and where contact sees those of its skin.
+enum class Made {
+  cut,     ///< out of a turned lattice
+  raised,  ///< the same; contact sees its skin raised to the surface
+  fitted   ///< to its surface
+};
+
+/// Particles fitted to a box, which is turned by `angle` (rad) about y against the grid that `fit_particles` samples it
+/// with. Lengths in m.
+[[nodiscard]] inline std::vector<Point> fitted(double angle, const hmps::Box<double, 3>& box, double spacing) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const Point centre = (box.lower + box.upper) / 2, half = (box.upper - box.lower) / 2;
+  const Point reach = turn.cwiseAbs() * half + Point::Constant(0.1 * spacing);
+  const auto turned = [&](const Point& x) { return box(centre + turn.transpose() * x); };
+  std::vector<Point> places = hmps::fit_particles(turned, hmps::Box<double, 3>{-reach, reach}, spacing).positions;
+  for (Point& place : places) place = centre + turn.transpose() * place;
+  return places;
+}
+
+/// A rigid wall below z = 0, four layers deep, that is cut out of a lattice or fitted: `degrees` between its surface
+/// and the lattice, or the grid of samples, about y.
 struct Wall {
   double degrees = 0;
-  bool raised = false;  ///< contact sees its skin raised to the surface
-  double spacing = 1;   ///< m
+  Made made = Made::cut;
+  double spacing = 1;        ///< m
+  int layers = 4;            ///< of a fitted one
+  double layer_spacing = 1;  ///< of a fitted one, in spacings
 
   std::vector<Point> places = {};      ///< where contact sees the particles, m
   std::vector<hmps::Index> skin = {};  ///< numbered from 0
 
   /// Mean length of a step of the stairs along x, in m. They come in two lengths, that do not repeat.
-  [[nodiscard]] double step() const { return degrees > 0 ? spacing / std::sin(angle()) : spacing; }
+  [[nodiscard]] double step() const {
+    return degrees > 0 && made != Made::fitted ? spacing / std::sin(angle()) : spacing;
+  }
   /// Whole steps of 15 spacings or more in all, in m.
   [[nodiscard]] double stretch() const { return step() * std::ceil(15 * spacing / step() - 1e-9); }
   [[nodiscard]] double angle() const { return degrees * std::numbers::pi / 180; }
 
-  /// Fills lower[0] <= x <= upper[0] and the same in y, four layers deep.
+  /// Fills lower[0] <= x <= upper[0] and the same in y.
   void fill(const hmps::Vector<double, 2>& lower, const hmps::Vector<double, 2>& upper) {
-    // A wall along its lattice has its outermost particles half a spacing below its surface; so have the others on
-    // the average.
-    for (const Point& place : lattice(angle(), degrees > 0 ? 0.13 : 0.5, lower, upper, spacing)) {
-      if (place[2] > 0) continue;
-      // The next place of the lattice upwards is outside.
-      if (-place[2] < spacing * std::cos(angle())) skin.push_back(static_cast<hmps::Index>(places.size()));
-      places.push_back(place);
-    }
-    if (!raised) return;
+    if (made == Made::fitted)
+      fit(lower, upper);
+    else
+      cut(lower, upper);
+    if (made == Made::raised) raise();
+  }
+
+  /// Lets contact see the skin half a spacing below the surface.
+  void raise() {
     const hmps::HalfSpace<double, 3> inside{Point::Zero(), Point::UnitZ()};
     const hmps::SurfaceCorrection<double, 3> raise(hmps::vectors(places), skin, inside, spacing);
     for (std::size_t n = 0; n < skin.size(); ++n) places[skin[n]] += raise.offsets()[n];
+  }
+
+ private:
+  void add(const Point& place, bool is_skin) {
+    if (is_skin) skin.push_back(static_cast<hmps::Index>(places.size()));
+    places.push_back(place);
+  }
+  void cut(const hmps::Vector<double, 2>& lower, const hmps::Vector<double, 2>& upper) {
+    // A wall along its lattice has its outermost particles half a spacing below its surface; so have the others on
+    // the average. Of the skin are those whose next place of the lattice upwards is outside.
+    for (const Point& place : lattice(angle(), degrees > 0 ? 0.13 : 0.5, lower, upper, spacing))
+      if (place[2] <= 0) add(place, -place[2] < spacing * std::cos(angle()));
+  }
+  void fit(const hmps::Vector<double, 2>& lower, const hmps::Vector<double, 2>& upper) {
+    const double rim = 3 * spacing, layer = layer_spacing * spacing;  // at the rim the layers run around it
+    const Point low(lower[0] - rim, lower[1] - rim, -layers * layer), high(upper[0] + rim, upper[1] + rim, 0);
+    for (const Point& place : fitted(angle(), {low, high}, spacing)) {
+      const hmps::Vector<double, 2> at = place.head<2>();
+      if ((at.array() >= lower.array()).all() && (at.array() <= upper.array()).all()) add(place, -place[2] < layer);
+    }
   }
 };
 
 /// What a slave feels of a wall at one height of contact.
 struct Relief {
+  double offset = 0;        ///< mean height of the surface above the drawn one, in spacings
   double bumps = 0;         ///< of the surface, from the lowest to the highest, in spacings
   double tilt = 0;          ///< tangent of the angle between normal and surface normal, root mean square
   double largest_tilt = 0;  ///< the same, the largest
 };
 
-/// Moves a slave over the stretch of a wall with unit spacing, at a penetration of a twentieth of a spacing.
+/// Moves a slave over the stretch of a wall with unit spacing, that is filled, at a penetration of a twentieth of a
+/// spacing.
 template <class Ball>
-[[nodiscard]] Relief relief(double degrees, bool raised) {
-  Wall wall{.degrees = degrees, .raised = raised};
-  const double reach = Ball::radius, stretch = wall.stretch();
-  wall.fill({-reach - 1, -reach - 1}, {stretch + reach + 1, reach + 1});
+[[nodiscard]] Relief relief(const Wall& wall) {
+  constexpr double reach = Ball::radius, penetration = 0.05;
   const hmps::NormalDensity<double, 3, Ball> Z(1.0);
   const hmps::Matrix<double, 3> undeformed = hmps::Matrix<double, 3>::Identity();
   Relief result;
   double lowest = 1e9, highest = -1e9, squares = 0;
-  constexpr int along = 240, across = 5;
+  constexpr int along = 240, across = 5, count = along * across;
   for (int a = 0; a < along; ++a)
     for (int b = 0; b < across; ++b) {
-      Point slave(stretch * a / along, 0.5 * b / (across - 1), 0), normal = Point::Zero();
+      Point slave(wall.stretch() * a / along, 0.5 * b / (across - 1), 0), normal = Point::Zero();
       const auto distance = [&](double height) {
         slave[2] = height;
         hmps::MasterSurface<double, 3, Ball> surface;
@@ -95,18 +140,27 @@ template <class Ball>
       double low = -0.5, high = reach;
       while (high - low > 1e-6) {
         const double middle = (low + high) / 2;
-        (distance(middle) < 0.95 ? low : high) = middle;
+        (distance(middle) < 1 - penetration ? low : high) = middle;
       }
       (void)distance(low);
       const double tilt = normal.head<2>().norm() / normal[2];
       lowest = std::min(lowest, low);
       highest = std::max(highest, low);
-      squares += tilt * tilt / (along * across);
+      result.offset += (low - (0.5 - penetration)) / count;
+      squares += tilt * tilt / count;
       result.largest_tilt = std::max(result.largest_tilt, tilt);
     }
   result.bumps = highest - lowest;
   result.tilt = std::sqrt(squares);
   return result;
+}
+/// The same for a wall that is not filled yet.
+template <class Ball>
+[[nodiscard]] Relief relief_of(Wall wall, bool raised = false) {
+  constexpr double beyond = Ball::radius + 1;
+  wall.fill({-beyond, -beyond}, {wall.stretch() + beyond, beyond});
+  if (raised) wall.raise();
+  return relief<Ball>(wall);
 }
 
 }  // namespace walls

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What blocks that slide along walls of every kind feel.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/chart.hpp"
+#include "report/table.hpp"
+#include "report/text.hpp"
+#include "walls/block.hpp"
+
+namespace walls {
+
+using report::digits, report::places, report::Table;
+
+inline constexpr std::array angles{0., 15., 22.5, 30., 45.};
+inline constexpr double mu = 0.2;
+
+/// The candidate that was not worth it: the smooth kernel with a longer reach, to level the stairs.
+struct WideMetaball : hmps::SmoothMetaball {
+  static constexpr double radius = 3.5;
+};
+
+/// The angles of a wall or block: along a lattice no skin is raised, and 22.5 degrees are for the fitted.
+[[nodiscard]] inline std::vector<double> angles_of(Made made, Part part, bool quick) {
+  std::vector<double> chosen;
+  for (const double degrees : angles) {
+    const bool known =
+        made == Made::fitted || (degrees != 22.5 && (degrees != 0 || (made == Made::cut && part == Part::wall)));
+    if (known && (!quick || degrees == 15 || (degrees == 0 && made == Made::cut))) chosen.push_back(degrees);
+  }
+  return chosen;
+}
+[[nodiscard]] inline std::string skin(Made made, double degrees) {
+  if (made == Made::fitted) return "fitted";
+  return degrees == 0 ? "along the lattice" : made == Made::raised ? "raised" : "as cut";
+}
+
+/// One kernel on one wall.
+struct Found {
+  std::string kernel;
+  Made made;
+  Part part;
+  double degrees;
+  Relief relief;
+  Outcome frictionless, rough;
+  [[nodiscard]] bool along() const { return made == Made::cut && degrees == 0; }
+  [[nodiscard]] double error() const { return rough.friction / mu - 1; }
+  [[nodiscard]] double drag() const { return frictionless.friction; }
+};
+template <class Ball>
+void measure(const std::string& kernel, Made made, Part part, bool quick, std::vector<Found>& all) {
+  for (const double degrees : angles_of(made, part, quick)) {
+    Scene scene{.degrees = degrees, .made = made, .part = part};
+    const Outcome frictionless = run<Ball, hmps::CorrectedFriction>(scene);
+    scene.friction = mu;
+    all.push_back({kernel, made, part, degrees, relief_of<Ball>({.degrees = degrees, .made = made}), frictionless,
+                   run<Ball, hmps::CorrectedFriction>(scene)});
+  }
+}
+/// All skins of one part.
+template <class Ball>
+void measure(const std::string& kernel, Part part, bool quick, std::vector<Found>& all) {
+  for (const Made made : {Made::cut, Made::raised, Made::fitted})
+    if (part != Part::both || made == Made::fitted) measure<Ball>(kernel, made, part, quick, all);
+}
+
+/// The largest magnitude of what `of` takes from the walls of one kernel and skin, at an angle or along the lattice; or
+/// from the blocks.
+template <class Of>
+[[nodiscard]] double worst(const std::vector<Found>& all, const std::string& kernel, Made made, bool along, Of&& of,
+                           Part part = Part::wall) {
+  double most = 0;
+  for (const Found& row : all)
+    if (row.kernel == kernel && row.part == part && row.made == made && row.along() == along)
+      most = std::max(most, std::abs(of(row)));
+  return most;
+}
+[[nodiscard]] inline std::string percent(double share, int count = 1) { return places(100 * share, count) + " %"; }
+
+[[nodiscard]] inline Table table_of(const std::vector<Found>& all) {
+  Table table{"walls",
+              {"Kernel", "Turned", "Skin", "Angle", "Offset, l0", "Bumps, l0", "Tilt, rms", "Tilt, largest",
+               "Drag without friction", "Ripple of F_n", "Error of friction", "Time"}};
+  const double unit = all.front().rough.seconds;
+  for (const Found& row : all)
+    table.rows.push_back({row.kernel,
+                          row.part == Part::both    ? "both"
+                          : row.part == Part::block ? "block"
+                                                    : "wall",
+                          skin(row.made, row.degrees), digits(row.degrees), places(row.relief.offset),
+                          places(row.relief.bumps), places(row.relief.tilt), places(row.relief.largest_tilt),
+                          places(row.drag(), 4), percent(row.rough.ripple), percent(row.error()),
+                          places(row.rough.seconds / unit, 1)});
+  const auto error = [](const Found& row) { return row.error(); };
+  const auto drag = [](const Found& row) { return row.drag(); };
+  table.check(worst(all, "smooth", Made::cut, true, error) < 0.01,
+              "along the lattice the smooth kernel errs by 1 % of friction at most");
+  table.check(worst(all, "smooth", Made::raised, false, error) < 0.3 * worst(all, "smooth", Made::cut, false, error),
+              "raising the skin takes away two thirds of the error of friction");
+  table.check(worst(all, "smooth", Made::raised, false, drag) < 0.5 * worst(all, "smooth", Made::cut, false, drag),
+              "raising the skin takes away half of the drag");
+  for (const Part part : {Part::wall, Part::block, Part::both}) {
+    const std::string what = part == Part::wall ? "wall" : part == Part::block ? "block" : "pair";
+    table.check(worst(all, "smooth", Made::fitted, false, error, part) < 0.01,
+                "on a fitted " + what + " the smooth kernel errs by 1 % of friction at most");
+    table.check(worst(all, "smooth", Made::fitted, false, drag, part) < 0.01,
+                "a fitted " + what + " drags by 1 % of the normal force at most");
+  }
+  return table;
+}
+
+/// What to do, from the figures.
+[[nodiscard]] inline std::string rules_of(const std::vector<Found>& all) {
+  const auto error_of = [](const Found& row) { return row.error(); };
+  const auto drag_of = [](const Found& row) { return row.drag(); };
+  const std::string least_above =
+      places(1e-4 * std::floor(1 + 1e4 * worst(all, "smooth", Made::fitted, false, drag_of)), 4);
+  const auto error = [&](const std::string& kernel, Made made, bool along, Part part = Part::wall) {
+    return percent(worst(all, kernel, made, along, error_of, part));
+  };
+  const auto drag = [&](const std::string& kernel, Made made) {
+    return places(worst(all, kernel, made, false, drag_of));
+  };
+  const auto time = [&](const std::string& kernel) {
+    const auto seconds = [](const Found& row) { return row.rough.seconds; };
+    return places(worst(all, kernel, Made::cut, true, seconds) / worst(all, "paper", Made::cut, true, seconds), 1);
+  };
+  const double steepest =
+      worst(all, "smooth", Made::cut, false, [](const Found& row) { return row.relief.largest_tilt; });
+  const std::vector<std::string> rules = {
+      "Lay rigid walls and plates out along their own surface, whatever their direction: `SmoothMetaball` then errs "
+      "by " +
+          error("smooth", Made::cut, true) + " of the friction coefficient at most, `PaperMetaball` by " +
+          error("paper", Made::cut, true) + ".",
+      "Or fit them, whatever their form: with `fit_particles` and `SmoothMetaball` the friction errs by " +
+          error("smooth", Made::fitted, false) + " at most, and a slide without friction is dragged by less than " +
+          least_above + " of the normal force, at any angle. A fitted block on a wall along its lattice errs by " +
+          error("smooth", Made::fitted, false, Part::block) + ", one on a fitted wall by " +
+          error("smooth", Made::fitted, false, Part::both) + ". With `PaperMetaball` a fitted wall errs by " +
+          error("paper", Made::fitted, false) + ".",
+      "Where a surface has to cut the lattice, let contact see it through `SurfaceCorrection`: with `SmoothMetaball` "
+      "the "
+      "friction errs by " +
+          error("smooth", Made::raised, false) + " at most instead of " + error("smooth", Made::cut, false) +
+          ", and a slide without friction is dragged by " + drag("smooth", Made::raised) + " instead of " +
+          drag("smooth", Made::cut) +
+          " of the normal force. Contact takes about as long as on a wall along its lattice.",
+      "As cut, count on friction coefficients that are too large by up to " + error("smooth", Made::cut, false) +
+          " with `SmoothMetaball` and " + error("paper", Made::cut, false) +
+          " with `PaperMetaball` where a body is driven, and on stairs that stop one that should slide by its weight: "
+          "their sides are as steep as " +
+          digits(steepest, 2) + " (as a tangent).",
+      "It is the surface slid over that counts: a block that is cut, on a wall along its lattice, errs by " +
+          error("smooth", Made::cut, false, Part::block) + " as cut and by " +
+          error("smooth", Made::raised, false, Part::block) + " raised.",
+      "A kernel that reaches further does not help: with a radius of 3.5 l0 (wide) friction errs by " +
+          error("wide", Made::cut, false) + " as cut, " + error("wide", Made::raised, false) + " raised and " +
+          error("wide", Made::fitted, false) + " fitted, for " + time("wide") +
+          " times the time of the paper's kernel where the smooth one takes " + time("smooth") + "."};
+  return '\n' + report::bullets(rules) + '\n';
+}
+
+/// Error of friction over the angle, one line per kernel and skin.
+inline void draw(const std::vector<Found>& all, const std::filesystem::path& path) {
+  using report::Anchor, report::Colour;
+  constexpr double left = 80, top = 50, across_all = 520, up_all = 260, most = 0.6;
+  report::Canvas canvas(860, 380);
+  report::Panel panel{.canvas = canvas,
+                      .x = left,
+                      .y = top,
+                      .width = across_all,
+                      .height = up_all,
+                      .size = 12,
+                      .left = 8,
+                      .below = 20,
+                      .ink = Colour::hex(0x333333),
+                      .grid = Colour::hex(0xdddddd)};
+  const auto across = report::Axis::linear(0, 45, left, left + across_all);
+  const auto up = report::Axis::linear(0, most, top + up_all, top);
+  canvas.text(left, 28, "Error of a friction coefficient of 0.2 on a wall at an angle", 15, panel.ink, Anchor::left,
+              true);
+  for (const double tick : {0., 0.2, 0.4, 0.6}) panel.tick_up(up(tick), percent(tick, 0));
+  for (const double degrees : {0., 15., 30., 45.}) panel.tick_across(across(degrees), digits(degrees), true);
+  panel.caption("angle between surface and lattice, or grid of samples, degrees", 42, 12);
+  const std::pair<const char*, Colour> kernels[] = {
+      {"paper", Colour::hex(0xc0392b)}, {"smooth", Colour::hex(0x2060b0)}, {"wide", Colour::hex(0x30a060)}};
+  double y = top + 20;
+  for (const auto& [kernel, colour] : kernels)
+    for (const Made made : {Made::cut, Made::raised, Made::fitted}) {
+      report::Points line;
+      for (const Found& row : all)
+        if (row.kernel == kernel && row.part == Part::wall &&
+            (row.made == made || (row.along() && made != Made::fitted)))
+          line.emplace_back(across(row.degrees), up(std::clamp(row.error(), 0., most)));
+      std::sort(line.begin(), line.end());
+      const std::vector<double> dashes = made == Made::cut      ? std::vector<double>{6, 4}
+                                         : made == Made::fitted ? std::vector<double>{1, 3}
+                                                                : std::vector<double>{};
+      panel.curve(line, colour, 2, 4, dashes);
+      canvas.line(left + across_all + 30, y - 4, left + across_all + 70, y - 4, colour, 2, dashes);
+      const char* skin = made == Made::cut ? ", as cut" : made == Made::raised ? ", raised skin" : ", fitted";
+      canvas.text(left + across_all + 80, y, std::string(kernel) + skin, 13, panel.ink);
+      y += 24;
+    }
+  canvas.save(path);
+}
+
+}  // namespace walls
