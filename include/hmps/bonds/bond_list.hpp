@@ -53,11 +53,11 @@ class BondList : public Blocks<K, D> {
   }
 
   /// The same for particles of unlike `volumes` (m3; in 2D m2), such as those of `fit_particles`. The weight of a bond
-  /// of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material, and forces per volume
-  /// times the volume of each particle are the gradient of the energy of those volumes; they and their moments sum to
-  /// zero. Energies and momenta must be given the same volumes. Costs nothing in a sweep. Throws `InputError` also for
-  /// a volume that is not positive, and volumes of a mean that differs from l0^D by more than a factor of 8, as in
-  /// another unit.
+  /// of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material. Forces stay per volume;
+  /// times the volume of each particle they sum to zero, and those of terms with an energy are the gradient of the
+  /// energy of those volumes. Energies and momenta must be given the same volumes. Costs nothing in a sweep. Throws
+  /// `InputError` also for a volume that is not positive, and volumes of a mean that differs from l0^D by more than a
+  /// factor of 8, as in another unit.
   template <class T, class V, class Bonded = EveryBond, class Weight = PaperWeight>
   BondList(const VectorView<T, D>& reference, const BondSettings& settings, const ScalarView<V>& volumes,
            Bonded&& bonded = {}, Weight&& weight = {})
@@ -101,6 +101,8 @@ class BondList : public Blocks<K, D> {
     }
   }
 
+  /// Whether the bonds were given the volumes of their particles.
+  [[nodiscard]] bool knows_volumes() const { return shares_.bytes() > 0; }
   /// V / l0^D of a particle; 1 if the bonds were given no volumes.
   [[nodiscard]] double volume_share(std::size_t i) const { return shares_.of(this->slot(i)); }
   /// The same for the particles of `block`.

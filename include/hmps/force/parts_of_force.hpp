@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
@@ -48,23 +49,37 @@ struct PartsOfForce {
   static constexpr bool acts = (BodyForceTerm<Terms, K, D> || ...);
 };
 
-/// Throws `InputError` if the tension of `term` is not finite in a bond stretched by a thousandth.
+/// Throws `InputError` if the tension of `term` in a bond stretched by a thousandth is not finite, or, for bonds that
+/// know the volumes of particles, not in proportion to the weight, which carries them.
 template <class Term, Bonds B>
 HMPS_COLD void require_tensions(const Term& term, const B& bonds) {
-  using T = Lanes<typename B::Scalar>;
+  using K = typename B::Scalar;
+  using T = Lanes<K>;
   constexpr int D = B::dimension;
+  const bool weighted = [&] {
+    if constexpr (requires { bool(bonds.knows_volumes()); }) return bonds.knows_volumes();
+    return false;
+  }();
   for (std::size_t block = 0; block < bonds.block_count(); ++block)
     bonds.for_each_row(block, [&](const auto& bond) {
       Vector<T, D> r0, relative;
       for (int d = 0; d < D; ++d) {
-        r0[d] = bond.along(d) ? T(bond.offset(d)) : T(typename B::Scalar(0));
-        relative[d] = r0[d] * T(typename B::Scalar(1e-3));
+        r0[d] = bond.along(d) ? T(bond.offset(d)) : T(K(0));
+        relative[d] = r0[d] * T(K(1e-3));
       }
-      const T w = bond.weight(), tension = term.tension(BondState<T, D>(r0, relative, w));
-      for (int l = 0; l < T::width; ++l)
-        require(!(w.lane[l] > 0) || is_finite(tension.lane[l]), "hmps: a pair term pulls particle ",
-                bonds.particle(block * B::width + static_cast<std::size_t>(l)), " by ", tension.lane[l],
+      const T w = bond.weight(), tension = term.tension(BondState<T, D>(r0, relative, w)),
+              twice = weighted ? T(term.tension(BondState<T, D>(r0, relative, T(K(2)) * w))) : T(K(2)) * tension;
+      for (int l = 0; l < T::width; ++l) {
+        if (!(w.lane[l] > 0)) continue;
+        const auto i = bonds.particle(block * B::width + static_cast<std::size_t>(l));
+        require(is_finite(tension.lane[l]), "hmps: a pair term pulls particle ", i, " by ", tension.lane[l],
                 " N/m3 along a bond that is stretched by a thousandth; check its parameters and formula");
+        require(std::abs(twice.lane[l] - 2 * tension.lane[l]) <= K(1e-3) * std::abs(tension.lane[l]),
+                "hmps: a pair term pulls particle ", i, " by ", tension.lane[l], " N/m3 along a bond, and by ",
+                twice.lane[l],
+                " N/m3 along one of twice the weight; these bonds know the volumes of their particles, so that the "
+                "tension must be in proportion to bond.weight()");
+      }
     });
 }
 

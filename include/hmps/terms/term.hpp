@@ -171,10 +171,11 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
 ///
 ///     f_i = sum_j t_ij r_ij / |r_ij|.
 ///
-/// The term multiplies by the weight of the bond itself, if it should: where bonds know the volumes of particles, it
-/// must, since the weight carries that of the neighbour. It receives only what is the same from both
-/// ends, and the force lies along the bond, so that momentum and angular momentum are conserved whatever it returns. t
-/// is the derivative of an energy density with respect to |r|, where each bond counts once: see `ForceEnergy`.
+/// The term multiplies by the weight of the bond itself, if it should. Where bonds know the volumes of particles it
+/// must, since the weight then carries that of the neighbour; `internal_force` checks that. Otherwise it receives only
+/// what is the same from both ends, and the force lies along the bond, so that momentum and angular momentum are
+/// conserved whatever it returns. t is the derivative of an energy density with respect to |r|, where each bond counts
+/// once: see `ForceEnergy`.
 template <class Term, class K, int D>
 concept PairTerm = requires(const Term& term, const BondState<Lanes<K>, D>& bond) {
   { term.tension(bond) } -> std::convertible_to<Lanes<K>>;

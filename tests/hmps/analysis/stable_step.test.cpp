@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,6 +11,14 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "hmps/bonds/bond_list.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/viscous.hpp"
+#include "hmps/time/symplectic_euler.hpp"
 
 namespace stable_step_test {
 
@@ -211,6 +220,41 @@ TEST(StableStep, ParticlesThatDoNotMoveDoNotCount) {
   EXPECT_THROW((void)stable_step(chain, vectors(x), vectors(v), 1000.0,
                                  {.spacing = chain.spacing, .moves = [](std::size_t) { return false; }}),
                InputError);
+}
+
+// Forces of particles of unlike volumes are not symmetric, only times the volumes; the motion itself is the judge.
+TEST(StableStep, HoldsForParticlesOfUnlikeVolumes) {
+  constexpr double l0 = 1e-3, rho = 1000;
+  std::vector<Vector<double, 2>> X;
+  std::vector<double> volumes;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 8; ++j) {
+      X.emplace_back(l0 * i, l0 * j);
+      volumes.push_back(l0 * l0 * (0.5 + (7 * i + 5 * j) % 11 / 10.0));
+    }
+  const BondList<double, 2> bonds(vectors(X), {.spacing = l0}, scalars(volumes));
+  auto force = internal_force(bonds, elastic(MooneyRivlin<>{1700, 1500, 1e4}), artificial(2e4), viscous(rho, 2e-4));
+  auto x = X, v = X, f = X;
+  for (auto& speed : v) speed.setZero();
+  const auto found = stable_step(force, vectors(x), vectors(v), rho, {.spacing = l0});
+  /// The largest displacement in spacings after a jolt of a billionth.
+  const auto moved = [&](double dt) {
+    x = X;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i][0] += 1e-9 * l0 * static_cast<double>(i % 3);
+      v[i].setZero();
+    }
+    double most = 0;
+    for (int step = 0; step < 4000 && most < 1; ++step) {
+      force(vectors(x), vectors(v), vectors(f));
+      kick(vectors(v), vectors(f), rho, dt);
+      drift(vectors(x), vectors(v), dt);
+      for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, (x[i] - X[i]).norm() / l0);
+    }
+    return most;
+  };
+  EXPECT_LT(moved(0.99 * found.limit), 1e-6);
+  EXPECT_GT(moved(1.03 * found.limit), 1e-3);
 }
 
 TEST(StableStep, RefreshFollowsAChangeInFewEvaluations) {

@@ -113,6 +113,11 @@ TEST(ForceEnergy, OfUnlikeVolumesIsWhatTheForceTimesTheVolumeIsMinusTheGradientO
   const auto law = hmps::MooneyRivlin<double>{1700, 1500, 1e4};
   expect(hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::mean_dilatation(1e6)));
   expect(hmps::internal_force(bonds, hmps::mean_dilatation<2>(1e6), Both{{1e9}, {1e8}}));
+  struct Unweighted {
+    static double tension(const hmps::BondState<hmps::Lanes<double>, 2>&) { return 1; }
+  };
+  EXPECT_THROW((void)hmps::internal_force(bonds, Unweighted{}), hmps::InputError);
+  EXPECT_NO_THROW((void)hmps::internal_force(s.bonds, Unweighted{}));
   auto viscosity = hmps::internal_force(bonds, hmps::viscous(1000, 2e-3));
   viscosity(x, v, hmps::vectors(f));
   sums_to_zero(false);
