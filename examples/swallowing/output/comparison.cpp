@@ -96,7 +96,7 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
   text +=
       "\nThe time is that at which the line from the centre of the epiglottis (the level of region F) to its tip\n"
       "first passes below the horizontal; \"base to tip\" reads the line from its base to its tip instead. The\n"
-      "motion was calibrated on X1, X3 and Y1 at 2.4 mm, with an eye on 1.8 mm; Y3 is a prediction.\n";
+      "motion was calibrated on X1, X3 and Y1 on the lattice at 2.4 mm, with an eye on 1.8 mm; Y3 is a prediction.\n";
   for (const CaseResult& result : results)
     if (result.summary && result.summary->paper_contact) {
       text +=
@@ -227,7 +227,7 @@ void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4
   canvas.text(table + 52, y + 13, "time in the paper's Table 2", 14, faint);
   canvas.disc(table + 19, y + 32, 6, faint);
   canvas.text(table + 52, y + 37, "time in this run", 14, faint);
-  canvas.text(table, y + 66, "Calibrated on X1, X3 and Y1 at 2.4 mm.", 14, faint);
+  canvas.text(table, y + 66, "Calibrated on X1, X3 and Y1, lattice of 2.4 mm.", 14, faint);
   canvas.save(path);
 }
 
