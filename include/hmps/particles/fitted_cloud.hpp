@@ -129,7 +129,8 @@ class FittedCloud {
     particle.place = particle.safe = place;
     look(particle);
     const double slope = particle.slope.squaredNorm();
-    if (layer != particle.layers.layer(particle.depth) && slope > least_slope)
+    // Behind the layers that are counted lies the bulk: particles stay where they are.
+    if (layer < Field::most_layers && layer != particle.layers.layer(particle.depth) && slope > least_slope)
       particle.place += (particle.depth - particle.layers.level(layer)) / slope * particle.slope;
     return particle;
   }

@@ -182,6 +182,17 @@ TEST(FitParticles, FillsAThickBody) {
   for (const double v : fitted.volumes) EXPECT_NEAR(v, 1, 0.55);
 }
 
+// However far the middle is from the surface.
+TEST(FitParticles, FillsTheMiddleOfABodyOfManySpacings) {
+  using V2 = Vector<double, 2>;
+  const auto fitted = fit_particles(Box<double, 2>{V2(0, 0), V2(64, 64)}, Box<double, 2>{V2(-1, -1), V2(65, 65)}, 1.0);
+  EXPECT_NEAR(static_cast<double>(fitted.size()), 64 * 64, 8);
+  const auto within = std::count_if(fitted.positions.begin(), fitted.positions.end(),
+                                    [](const V2& x) { return (x.array() > 22).all() && (x.array() < 42).all(); });
+  EXPECT_NEAR(static_cast<double>(within), 20 * 20, 20);
+  EXPECT_LE(*std::max_element(fitted.volumes.begin(), fitted.volumes.end()), 1.5);
+}
+
 TEST(FitParticles, LeavesThinEdgesToTheirNeighboursAndFillsJunctions) {
   // A wedge of 30 degrees: 1.2 thick at 2.2 from its edge.
   const double a = 15 * 3.14159265358979 / 180;
