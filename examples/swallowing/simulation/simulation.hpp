@@ -215,7 +215,8 @@ class Simulation {
         return contact.add_organ({.name = std::string(swallowing::name(name)),
                                   .slaves = slaves,
                                   .masters = masters,
-                                  .prescribed = prescribed});
+                                  .prescribed = prescribed,
+                                  .radius = [this](hmps::Index i) { return scene_->slave_radius(i); }});
       };
       contact.add_pair(organ(pair.first, pair.first_slaves, pair.first_masters),
                        organ(pair.second, pair.second_slaves, pair.second_masters));

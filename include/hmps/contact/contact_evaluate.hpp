@@ -101,7 +101,8 @@ bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, cons
 
   const detail::SlaveContact<S, D> contact = detail::slave_contact<S, D, Kernel>(
       lists_.normal_density(), place,
-      {masters_.data(), moving_.data(), lists_.active().master_of().data() + begin, size}, row.compression,
+      {masters_.data(), moving_.data(), lists_.active().master_of().data() + begin, size},
+      static_cast<S>(lists_.organs().slave_radius(row.side, row.slot)), row.compression,
       [&] { return F[slave].template cast<S>().eval(); }, [&] { return v[slave].template cast<S>().eval(); },
       state.normal, weight);
   const bool touches = contact.penetration > S(0);

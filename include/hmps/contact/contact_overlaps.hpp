@@ -15,11 +15,13 @@ std::vector<Overlap> MetaballContact<S, D, Kernel, Friction, Penalty>::find_over
   const NormalDensity<double, D, Kernel> Z(settings_.spacing);
   const auto state_of = [&](std::size_t organ, std::uint8_t role, const auto& wanted) {
     detail::OverlapParticles<D> state;
-    for (const Index i : lists_.organs().particles_of(organ, role)) {
-      if (!wanted(i)) continue;
+    for (const auto& member : lists_.organs().members_of(organ)) {
+      const Index i = member.particle;
+      if (!(member.flags & role) || !wanted(i)) continue;
       state.particle.push_back(i);
       state.x.push_back(x[i].template cast<double>());
       state.F.push_back(F[i].template cast<double>());
+      state.radius.push_back(member.radius);
       detail::require_motion<D>(state.x.back(), Vector<double, D>::Zero(), i);
       detail::require_gradient<D>(state.F.back(), i);
     }

@@ -113,9 +113,9 @@ class MetaballContact {
   /// Adds the contact force densities for the step `dt` (s) to `f`. Throws `InputError` for views of the wrong size, an
   /// invalid step, a penalty that `S` cannot represent, organs of which no pair may touch, a spacing far below that of
   /// an organ's particles at its first call, and if the deformation gradient of a particle of an organ is zero. Throws
-  /// `StateError` if a position or gradient, or the velocity of a particle near another organ, is not finite, or if your
-  /// own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that `S` cannot invert,
-  /// forms no wall.
+  /// `StateError` if a position or gradient, or the velocity of a particle near another organ, is not finite, or if
+  /// your own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that `S` cannot
+  /// invert, forms no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
   ContactReport<S> add(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
                        const VectorView<T, D>& f, double dt, const E& execute = {}) {

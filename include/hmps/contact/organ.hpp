@@ -30,6 +30,10 @@ struct Organ {
   /// Whether a particle follows a forced displacement, so that forces do not move it (default: none). Read by
   /// `CorrectedFriction`, damping and `MetaballContact::kick`.
   std::function<bool(Index)> prescribed{};
+  /// r_0 in m of a slave, \paper{37}: how far its surface lies from its centre before it is deformed (default: half
+  /// the spacing of the contact, so that undeformed slaves are spheres that touch at the spacing). For layers that lie
+  /// closer or wider, half of that: `[&](Index i) { return fitted.layer_spacings[i] / 2; }`.
+  std::function<double(Index)> radius{};
 };
 
 /// Which organ of a pair has slaves. The paper uses both, \paper{43}.

@@ -42,6 +42,7 @@ struct OverlapParticles {
   std::vector<Index> particle;
   std::vector<Vector<double, D>> x;
   std::vector<Matrix<double, D>> F;  // may be empty if it is not needed
+  std::vector<double> radius;        // r_0 in m, of slaves
 };
 
 /// The outward direction of a surface: for each particle of `skin`, the unit vector away from the surrounding masters;
@@ -68,8 +69,8 @@ template <int D>
 
 /// Sets `count`, `deepest` and `depth` of `overlap` for `slaves` at a wall of `masters` whose outermost layer is `skin`
 /// (empty if unknown). Near the surface the depth is the penetration of \paper{38}. Further inside, where metaballs
-/// give no distance, it is one spacing plus the distance of the slave behind the nearest particle of the outermost
-/// layer, if that is less than `deepest` spacings away.
+/// give no distance, it is the distance of the slave behind the nearest particle of the outermost layer plus the radii
+/// of both, if they are less than `deepest` spacings apart.
 template <int D, Metaball Kernel>
 HMPS_COLD void find_overlap(const NormalDensity<double, D, Kernel>& Z, const OverlapParticles<D>& slaves,
                             const OverlapParticles<D>& masters, const OverlapParticles<D>& skin,
@@ -104,9 +105,10 @@ HMPS_COLD void find_overlap(const NormalDensity<double, D, Kernel>& Z, const Ove
     double depth = 0;
     Vector<double, D> normal;
     if (centres.reached)
-      depth = surface.normal(radius, normal) ? penetration(slave_support<double, D>(slaves.F[i], normal, l0),
-                                                           surface_distance(surface.stretch(normal), centres.value, l0))
-                                             : l0 - centres.value;
+      depth = surface.normal(radius, normal)
+                  ? penetration(slave_support<double, D>(slaves.F[i], normal, slaves.radius[i]),
+                                surface_distance(surface.stretch(normal), centres.value, l0))
+                  : l0 - centres.value;
 
     double nearest = deepest * l0, behind = 0;
     near_skin.visit(slaves.x[i], nearest, [&](Index s, double) {
@@ -115,7 +117,7 @@ HMPS_COLD void find_overlap(const NormalDensity<double, D, Kernel>& Z, const Ove
       nearest = r.norm();
       const double height = r.dot(outward[s]);
       const bool below = height < 0 && (r - height * outward[s]).norm() < 0.9 * l0 && meets(skin.particle[s]);
-      behind = below ? l0 - height : 0;
+      behind = below ? slaves.radius[i] + skin.radius[s] - height : 0;
     });
     depth = std::max(depth, behind);
     if (!(depth > 0)) continue;

@@ -7,13 +7,12 @@
 namespace hmps::inline HMPS_ABI {
 
 /// r_i in m: how far the deformed slave reaches towards a wall of unit normal `normal`, \paper{37}.
-/// The ellipsoid |F^-1 x| = l0 / 2 has its point with normal -n at x = -(l0/2) F F^T n / |F^T n|, whose
-/// component along -n is r_i = (l0/2) |F^T n|: no root finding, no inverse. The paper's r_0 is read
-/// as l0 / 2, so that undeformed particles are spheres that touch at the spacing.
-/// `F` is the slave's deformation gradient, `spacing` l0 in m.
+/// The ellipsoid |F^-1 x| = r_0 has its point with normal -n at x = -r_0 F F^T n / |F^T n|, whose
+/// component along -n is r_i = r_0 |F^T n|: no root finding, no inverse.
+/// `F` is the slave's deformation gradient, `radius` r_0 in m; see `Organ::radius`.
 template <class S, int D>
-[[nodiscard]] S slave_support(const Matrix<S, D>& F, const Vector<S, D>& normal, S spacing) {
-  return S(0.5) * spacing * (F.transpose() * normal).norm();
+[[nodiscard]] S slave_support(const Matrix<S, D>& F, const Vector<S, D>& normal, S radius) {
+  return radius * (F.transpose() * normal).norm();
 }
 
 /// Penetration p in m, \paper{38}: `support` is r_i, `distance` r_im of the slave's centre from the

@@ -49,13 +49,15 @@ struct SlaveContact {
   Vector<float, D> outward;  ///< The normal before the rotation of the masters.
 };
 
-/// Evaluates a slave at `place` (m) against `wall`. Writes the normal n_m to `normal` if the wall is within reach, and
-/// the metaballs c_ij of all masters to `c`. `gradient()` returns F_i and `velocity()` v_i in m/s; they are called only
-/// when needed, which for most slaves is never. `compression` is an upper bound of the inverse of the stretch.
+/// Evaluates a slave of radius r_0 (m) at `place` (m) against `wall`. Writes the normal n_m to `normal` if the wall is
+/// within reach, and the metaballs c_ij of all masters to `c`. `gradient()` returns F_i and `velocity()` v_i in m/s;
+/// they are called only when needed, which for most slaves is never. `compression` is an upper bound of the inverse of
+/// the stretch.
 template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
 [[nodiscard]] HMPS_INLINE SlaveContact<S, D> slave_contact(const NormalDensity<S, D, Kernel>& Z, const Quad<S>& place,
-                                                           const Wall<S, D>& wall, S compression, Gradient&& gradient,
-                                                           Velocity&& velocity, Vector<S, D>& normal, S* c) {
+                                                           const Wall<S, D>& wall, S slave_radius, S compression,
+                                                           Gradient&& gradient, Velocity&& velocity,
+                                                           Vector<S, D>& normal, S* c) {
   const S l0 = Z.spacing(), radius = static_cast<S>(Kernel::radius) * l0;
   const S over_radius_squared = S(1) / (radius * radius);
   SlaveContact<S, D> contact;
@@ -74,7 +76,7 @@ template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
     contact.depth = l0 - centres.value;
     return contact;
   }
-  const S support = slave_support<S, D>(gradient(), normal, l0);  // r_i, (37)
+  const S support = slave_support<S, D>(gradient(), normal, slave_radius);  // r_i, (37)
   // The stretch is at least 1 / compression: most slaves nearby need no second pass.
   if (!(surface_distance(S(1), centres.value, l0) < support * compression)) return contact;
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -298,7 +299,7 @@ TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
 /// Three organs, pressed on each other in both roles, that move and deform: every force is that of the
 /// equations taken literally, on whatever lists it was found.
 template <class Ball, class Friction>
-void compare_with_plain(int power, bool corrected) {
+void compare_with_plain(int power, bool corrected, const std::function<double(Index)>& radius = {}) {
   using Scene = bodies::Scene<double, 3>;
   Scene scene;
   const double l0 = 1e-3;
@@ -307,10 +308,11 @@ void compare_with_plain(int power, bool corrected) {
   const auto lid = scene.add({6, 6, 2}, {1.4e-3, 1.1e-3, 7.1e-3}, l0);
   MetaballContact<double, 3, Ball, Friction> contact({.spacing = l0, .density = 1000, .friction = 0.1});
   plain::Contact literal{l0, 1000, 0.3 * 1000 / (dt * dt), 0.1, dt, Ball::radius, power, corrected, {}};
+  if (radius) literal.slave_radius = radius;
   const auto part = [](const std::vector<Index>& list) { return std::vector<std::size_t>(list.begin(), list.end()); };
   const auto pair = [&](const auto& a, const auto& b) {
-    contact.add_pair(contact.add_organ({.name = "a", .slaves = a.top, .masters = a.upper, .prescribed = {}}),
-                     contact.add_organ({.name = "b", .slaves = b.bottom, .masters = b.lower, .prescribed = {}}));
+    contact.add_pair(contact.add_organ({.name = "a", .slaves = a.top, .masters = a.upper, .radius = radius}),
+                     contact.add_organ({.name = "b", .slaves = b.bottom, .masters = b.lower, .radius = radius}));
     literal.sides.push_back({part(a.top), part(b.lower)});
     literal.sides.push_back({part(b.bottom), part(a.upper)});
   };
@@ -351,6 +353,12 @@ TEST(Plain, EveryForceIsThatOfTheEquationsTakenLiterally) {
   compare_with_plain<SmoothMetaball, PaperFriction>(3, false);
   compare_with_plain<PaperMetaball, CorrectedFriction>(1, true);
   compare_with_plain<PaperMetaball, PaperFriction>(1, false);
+}
+
+TEST(Plain, EverySlaveHasTheRadiusOfItsOwn) {
+  const auto radius = [](Index i) { return (0.4 + 0.1 * (i % 4)) * 1e-3; };
+  compare_with_plain<SmoothMetaball, CorrectedFriction>(3, true, radius);
+  compare_with_plain<PaperMetaball, PaperFriction>(1, false, radius);
 }
 
 /// The largest error of a force, over the largest force, of a pile that lies `distance` (m) from zero, computed in `S`

@@ -57,6 +57,24 @@ TEST(Overlaps, KnowWhatContactDoesNotSee) {
   EXPECT_EQ(pile.apply(contact, 1e-5).contacts, before.contacts);
 }
 
+TEST(Overlaps, ReachAsFarAsTheSlavesDo) {
+  for (const double radius : {0.4e-3, 0.6e-3})
+    for (const double gap : {0.8, -1.5}) {
+      const Pile pile(gap);
+      Contact contact({.spacing = 1e-3, .density = 1000});
+      const auto wall = contact.add_organ({.name = "wall", .slaves = pile.plate.top, .masters = pile.plate.upper});
+      contact.add_pair(contact.add_organ({.name = "block",
+                                          .slaves = pile.block.bottom,
+                                          .masters = pile.block.lower,
+                                          .radius = [=](Index) { return radius; }}),
+                       wall);
+      const auto found = contact.overlaps(hmps::vectors(pile.x));
+      ASSERT_EQ(found.size(), 2U);
+      const auto without = overlaps(pile);
+      EXPECT_NEAR(found[0].depth - without[1].depth, radius - 0.5e-3, 1e-9) << gap;
+    }
+}
+
 TEST(Overlaps, LeaveOutWhatIsExcluded) {
   const Pile pile(-1);
   const auto found = overlaps(pile, {.excluded_slaves = pile.block.bottom});

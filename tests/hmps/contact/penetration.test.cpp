@@ -26,7 +26,7 @@ TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
         furthest = std::max(furthest, -n.dot(F * q * 0.5e-3));
       }
     // The grid's nearest point is 0.005 rad off at most: 1 - cos of it.
-    const double support = hmps::slave_support<double, 3>(F, n, 1e-3);
+    const double support = hmps::slave_support<double, 3>(F, n, 0.5e-3);
     EXPECT_LE(furthest, support * (1 + 1e-12));
     EXPECT_GE(furthest, support * (1 - 4e-4));
   }
@@ -34,7 +34,7 @@ TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
 
 TEST(Penetration, UndeformedSlaveIsASphereInAnyDirection) {
   const hmps::Matrix<float, 2> I = hmps::Matrix<float, 2>::Identity();
-  EXPECT_FLOAT_EQ((hmps::slave_support<float, 2>(I, {0.6F, 0.8F}, 2.F)), 1.F);
+  EXPECT_FLOAT_EQ((hmps::slave_support<float, 2>(I, {0.6F, 0.8F}, 2.F)), 2.F);
 }
 
 TEST(Penetration, IsZeroWhereTheyDoNotTouch) {

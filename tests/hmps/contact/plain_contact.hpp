@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 /// Contact evaluated literally: each slave against every master, equation after equation, with Eigen and
@@ -22,6 +23,7 @@ struct Contact {
   int power;      ///< c = (1 - (r / r_e)^2)^power: 1 as printed in (26), 3 for the smooth metaball
   bool corrected;
   std::vector<Side> sides;  ///< both roles of each pair, (43)
+  std::function<double(std::size_t)> slave_radius = [this](std::size_t) { return l0 / 2; };  ///< r_0
 
   /// Z(y), (27), of the lattice that fills y <= 0: the sum over a layer is an integral over its plane.
   [[nodiscard]] double wall(double y) const {
@@ -71,12 +73,12 @@ struct Contact {
           inverse += t.share[j] * B;
         }
         if (C == 0) continue;
-        t.n = -gradient.normalized();                                            // (30)
-        t.slip = velocity / C - v[i];                                            // (31)
-        const double stretch = 1 / (inverse / C * t.n).norm();                   // (32, 33)
-        const double surface = stretch * (distance(C) - l0 / 2);                 // (34, 35, 36)
-        const Vec end = -l0 / 2 * F[i] * (F[i].transpose() * t.n).normalized();  // (37)
-        t.p = -end.dot(t.n) - surface;                                           // (38)
+        t.n = -gradient.normalized();                                                     // (30)
+        t.slip = velocity / C - v[i];                                                     // (31)
+        const double stretch = 1 / (inverse / C * t.n).norm();                            // (32, 33)
+        const double surface = stretch * (distance(C) - l0 / 2);                          // (34, 35, 36)
+        const Vec end = -slave_radius(i) * F[i] * (F[i].transpose() * t.n).normalized();  // (37)
+        t.p = -end.dot(t.n) - surface;                                                    // (38)
         if (t.p <= 0) continue;
         acted[i] += 1;
         for (double& share : t.share) share /= C;

@@ -66,7 +66,7 @@ struct Scene {
     Result result;
     result.c.resize(slave);
     result.contact = hmps::detail::slave_contact<double, 3, Ball>(
-        Z, place, {masters.data(), moving.data(), number.data(), slave}, compression, [&] { return F[slave]; },
+        Z, place, {masters.data(), moving.data(), number.data(), slave}, l0 / 2, compression, [&] { return F[slave]; },
         [&] { return v[slave]; }, result.normal, result.c.data());
     return result;
   }

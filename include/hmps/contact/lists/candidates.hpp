@@ -78,7 +78,7 @@ class Candidates {
       : normal_density_(spacing), radius_(static_cast<S>(Kernel::radius) * spacing), margin_(margin) {}
 
   std::size_t add_organ(const Organ& organ) {
-    const std::size_t added = organs_.add_organ(organ);
+    const std::size_t added = organs_.add_organ(organ, static_cast<double>(normal_density_.spacing()));
     parts_.clear();
     built_ = false;
     return added;

@@ -72,12 +72,11 @@ void Candidates<S, D, Kernel>::put_to_sleep(std::size_t r) {
       density[q] += Kernel::value(std::min(S(1), nearest * nearest));
     }
   }
-  const S l0 = normal_density_.spacing();
+  const S l0 = normal_density_.spacing(), radius = static_cast<S>(organs_.slave_radius(row.side, row.slot));
   const auto rests = [&](S touching) {
     row.rest = 1;
     for (std::size_t q = 0; q < levels; ++q, row.rest *= S(0.5))
-      if (!(surface_distance(S(1), normal_density_.inverse(density[q]).value, l0) < S(0.5) * l0 * touching))
-        return true;
+      if (!(surface_distance(S(1), normal_density_.inverse(density[q]).value, l0) < radius * touching)) return true;
     row.rest = 0;
     return false;
   };

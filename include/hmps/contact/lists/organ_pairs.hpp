@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "hmps/contact/organ.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 
@@ -50,10 +52,12 @@ class OrganPairs {
   struct Member {
     Index particle, number;
     std::uint8_t flags;
+    double radius;  // r_0 in m of a slave
   };
 
-  /// Returns the number of the organ. Throws `InputError` if it is empty.
-  std::size_t add_organ(const Organ& organ);
+  /// Returns the number of the organ. Throws `InputError` if it is empty, and for the radius of a slave beyond a
+  /// spacing (m).
+  std::size_t add_organ(const Organ& organ, double spacing);
   /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
   /// Numbers the particles. Call it after the last organ was added.
@@ -66,6 +70,10 @@ class OrganPairs {
   /// The particles by number, ascending, and their roles in any organ.
   [[nodiscard]] const std::vector<Index>& particle() const { return particle_; }
   [[nodiscard]] const std::vector<std::uint8_t>& flags() const { return flags_; }
+  /// r_0 in m of the slave of a side at `slot`.
+  [[nodiscard]] double slave_radius(std::size_t side, std::size_t slot) const {
+    return members_[organs_[sides_[side].slaves].begin + slot - sides_[side].first_slot].radius;
+  }
   /// Number of slots of all sides.
   [[nodiscard]] std::size_t slots() const { return slots_; }
 
@@ -74,18 +82,22 @@ class OrganPairs {
     require(size >= views_, "hmps: an organ names particle ", views_ - 1, " but the views hold ", size,
             " particles; indices count from 0 over all particles");
   }
+  /// The members of organ `o`, ascending.
+  [[nodiscard]] std::span<const Member> members_of(std::size_t o) const {
+    return std::span(members_).subspan(organs_[o].begin, organs_[o].end - organs_[o].begin);
+  }
   /// The particles of organ `o` in `role`, ascending.
   [[nodiscard]] std::vector<Index> particles_of(std::size_t o, std::uint8_t role) const {
     std::vector<Index> particles;
-    for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
-      if (members_[m].flags & role) particles.push_back(members_[m].particle);
+    for (const Member& member : members_of(o))
+      if (member.flags & role) particles.push_back(member.particle);
     return particles;
   }
   /// Calls `visit(i)` for each particle of organ `o` that forces move.
   template <class Visit>
   void for_each_movable(std::size_t o, Visit&& visit) const {
-    for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
-      if (!(members_[m].flags & is_prescribed)) visit(members_[m].particle);
+    for (const Member& member : members_of(o))
+      if (!(member.flags & is_prescribed)) visit(member.particle);
   }
 
  private:
@@ -95,6 +107,7 @@ class OrganPairs {
     const auto at = std::lower_bound(first, last, particle, [](const Member& m, Index i) { return m.particle < i; });
     return at != last && at->particle == particle && (at->flags & is_slave) != 0;
   }
+  [[nodiscard]] static double checked_radius(const Organ& organ, Index slave, double spacing);
   void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
   [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
 
@@ -107,7 +120,7 @@ class OrganPairs {
   std::size_t slots_ = 0, views_ = 0;
 };
 
-inline std::size_t OrganPairs::add_organ(const Organ& organ) {
+inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
   require(!organ.slaves.empty() || !organ.masters.empty(), "hmps: organ '", organ.name,
           "' has neither slaves nor masters; give the indices of its surface particles");
   std::vector<std::pair<Index, std::uint8_t>> all;
@@ -120,17 +133,27 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ) {
   require(prescribed_set == nullptr || all.back().first < prescribed_set->scene_size(), "hmps: organ '", organ.name,
           "' names particle ", all.back().first, ", but its set of prescribed particles is of a scene of ",
           prescribed_set == nullptr ? 0 : prescribed_set->scene_size(), "; make it for all particles");
-  const std::size_t begin = members_.size();
+  std::vector<Member> own;
   for (const auto& [i, role] : all) {
-    if (members_.size() == begin || members_.back().particle != i) {
+    if (own.empty() || own.back().particle != i) {
       const bool prescribed = organ.prescribed && organ.prescribed(i);
-      members_.push_back({i, no_particle, static_cast<std::uint8_t>(prescribed ? is_prescribed : 0)});
+      const double radius = organ.radius && role == is_slave ? checked_radius(organ, i, spacing) : spacing / 2;
+      own.push_back({i, no_particle, static_cast<std::uint8_t>(prescribed ? is_prescribed : 0), radius});
     }
-    members_.back().flags = static_cast<std::uint8_t>(members_.back().flags | role);
+    own.back().flags = static_cast<std::uint8_t>(own.back().flags | role);
   }
-  views_ = std::max(views_, static_cast<std::size_t>(members_.back().particle) + 1);
-  organs_.push_back({organ.name, begin, members_.size()});
+  views_ = std::max(views_, static_cast<std::size_t>(own.back().particle) + 1);
+  organs_.push_back({organ.name, members_.size(), members_.size() + own.size()});
+  members_.insert(members_.end(), own.begin(), own.end());
   return organs_.size() - 1;
+}
+
+inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double spacing) {
+  const double radius = organ.radius(slave);
+  require(is_finite(radius) && radius > 0 && radius <= spacing, "hmps: slave ", slave, " of organ '", organ.name,
+          "' has a radius of ", radius, " m; it is about half the spacing of ", spacing,
+          " m, and must be positive and not more than that");
+  return radius;
 }
 
 inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
@@ -178,9 +201,7 @@ inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const Pair
 /// master with this one: they would push each other twice.
 inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const {
   const auto any = [&](std::size_t o, std::uint8_t role) {
-    for (std::size_t m = organs_[o].begin; m < organs_[o].end; ++m)
-      if (members_[m].flags & role) return true;
-    return false;
+    return std::ranges::any_of(members_of(o), [&](const Member& member) { return (member.flags & role) != 0; });
   };
   require(any(slaves, is_slave), "hmps: organ '", organs_[slaves].name, "' has no slaves but is to touch '",
           organs_[masters].name, "'; give it slaves, or let only the other be slave");

@@ -14,8 +14,8 @@ using List = std::vector<Index>;
 hmps::detail::OrganPairs organs() {
   const List one{10, 11, 12}, other{20, 21, 22};
   hmps::detail::OrganPairs pairs;
-  const auto a = pairs.add_organ({.name = "one", .slaves = one, .masters = one});
-  pairs.add_pair(a, pairs.add_organ({.name = "other", .slaves = other, .masters = other}), {});
+  const auto a = pairs.add_organ({.name = "one", .slaves = one, .masters = one}, 1);
+  pairs.add_pair(a, pairs.add_organ({.name = "other", .slaves = other, .masters = other}, 1), {});
   pairs.number_particles();
   return pairs;
 }
