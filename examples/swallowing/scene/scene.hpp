@@ -69,10 +69,6 @@ struct Scene {
       skin;                 ///< where contact sees the organs' particles: at the drawn surface; nothing: where they are
   std::size_t removed = 0;  ///< weakly supported particles that were left out
 
-  /// How far the surface of an outermost particle lies from its centre, in m.
-  [[nodiscard]] double slave_radius(std::size_t i) const {
-    return (i < layer_spacings.size() ? layer_spacings[i] : spacing) / 2;
-  }
   /// Whether two particles of the body are bonded if they are near enough: not across an air gap.
   [[nodiscard]] bool bonded(std::size_t i, std::size_t j) const {
     return !std::binary_search(cut.begin(), cut.end(), detail::ordered(i, j));

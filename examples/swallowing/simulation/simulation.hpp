@@ -215,8 +215,7 @@ class Simulation {
         return contact.add_organ({.name = std::string(swallowing::name(name)),
                                   .slaves = slaves,
                                   .masters = masters,
-                                  .prescribed = prescribed,
-                                  .radius = [this](hmps::Index i) { return scene_->slave_radius(i); }});
+                                  .prescribed = prescribed});
       };
       contact.add_pair(organ(pair.first, pair.first_slaves, pair.first_masters),
                        organ(pair.second, pair.second_slaves, pair.second_masters));
