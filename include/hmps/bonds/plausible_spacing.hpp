@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
@@ -49,12 +50,20 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                              " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
                              "; the typical distance to the nearest particle is ", nearest(),
                              " m: give a spacing of that size, in the unit of the positions"));
-  if (also_alone && 10 * alone >= 9 * samples)
+  if (also_alone && 10 * alone >= 9 * samples) {
+    const double apart = nearest();
+    const std::string remedy = apart < 1.5 * settings.spacing
+                                   ? message("the radius of ", settings.radius_ratio,
+                                             " spacings is too short; radius_ratio is a number of "
+                                             "spacings, not metres, such as 1.75")
+                                   : message("a spacing of ", settings.spacing,
+                                             " m looks wrong; give a spacing of that size, in the unit of "
+                                             "the positions");
     throw InputError(message("hmps: particle ", lonely, " has 0 neighbours within the effective radius of ", radius,
                              " m, and so have ", alone, " of ", samples,
-                             " particles that were looked at; a spacing of ", settings.spacing,
-                             " m looks wrong: the typical distance to the nearest particle is ", nearest(),
-                             " m; give a spacing of that size, in the unit of the positions"));
+                             " particles that were looked at; the typical distance to the nearest particle is ", apart,
+                             " m: ", remedy));
+  }
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail

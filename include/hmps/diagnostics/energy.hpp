@@ -12,6 +12,7 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/diagnostics/recorded.hpp"
 #include "hmps/force/force_energy.hpp"
 #include "hmps/lanes/staging.hpp"
 #include "hmps/laws/law.hpp"
@@ -52,7 +53,7 @@ template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double strain_energy(const MatrixView<T, D>& F, const Material& material, const Vol& volume,
                                    const E& execute = {}) {
-  require_view(F, "deformation gradients");
+  detail::require_recorded(F);
   require_positive(volume, F.size(), "volume", "m3");
   return reduce(
       F.size(), 0.0,
@@ -112,6 +113,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
                                        const Modulus& modulus, const Vol& volume, const E& execute = {}) {
   require_size(x, bonds.size(), "positions");
   require_size(F, bonds.size(), "deformation gradients");
+  detail::require_recorded(F);
   require_positive(volume, bonds.size(), "volume", "m3");
   detail::require_quantity(modulus, bonds.size(), "moduli of the stabiliser");
   using K = typename B::Scalar;
@@ -146,6 +148,7 @@ template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, E
                                             const Vol& volume, const E& execute = {}) {
   static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
   require_size(F, bonds.size(), "deformation gradients");
+  detail::require_recorded(F);
   require_positive(volume, bonds.size(), "volume", "m3");
   const auto scales = detail::neighbourhood_scales(bonds);
   detail::require_quantity(bulk, bonds.size(), "bulk moduli");

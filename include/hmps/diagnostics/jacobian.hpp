@@ -12,6 +12,7 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/diagnostics/recorded.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -38,14 +39,15 @@ struct EveryParticle {
 };
 
 /// Statistics of det F over the particles for which `counts(i)` holds, for example those outside the control regions,
-/// as in section 4.1 of the paper. Throws `InputError` if there is none, for a set of another scene, and for an
-/// interval that is upside down. A NaN in F gives a NaN mean; `check_state` finds the particle.
+/// as in section 4.1 of the paper. Throws `InputError` if there is none, for a set of another scene, for an interval
+/// that is upside down, and for an F of zeros, which nothing has written. A NaN in F gives a NaN mean; `check_state`
+/// finds the particle.
 ///
 /// @param F  deformation gradients, \paper{11}
 template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
 [[nodiscard]] JacobianStatistics jacobian_statistics(const MatrixView<T, D>& F, const JacobianInterval& interval = {},
                                                      Counts&& counts = {}, const E& execute = {}) {
-  require_view(F, "deformation gradients");
+  detail::require_recorded(F);
   detail::require(!detail::is_nan(interval.low) && !detail::is_nan(interval.high) && interval.low <= interval.high,
                   "hmps: the interval of det F reaches from ", interval.low, " to ", interval.high,
                   "; give its lower bound first");

@@ -124,6 +124,7 @@ template <class X, class V, class FView, int D, class E>
   }
   if (F != nullptr && found.jacobian <= 0) {
     const std::size_t i = found.most_crushed;
+    if ((*F)[i].isZero(0)) require_recorded(*F);
     return Fault{FaultKind::inverted, i, found.jacobian,
                  fault_place(limits, i) + message("det F is ", found.jacobian, ", so it is turned inside out") +
                      "; try a smaller time step, a slower motion of what squeezes it, a softer contact, more "

@@ -11,6 +11,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/core/view_checks.hpp"
+#include "hmps/diagnostics/recorded.hpp"
 
 /// Strain for output, from deformation gradients: of one particle, and in the plural of all of them.
 /// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 4;
@@ -39,10 +40,12 @@ template <class T, int D>
 }
 
 /// Writes the Green-Lagrange strain of every particle, column-major, computed in double precision. Throws `InputError`
-/// for views of different sizes, and for a deformation gradient that is not finite, with the particle.
+/// for views of different sizes, and for a deformation gradient that is not finite or that nothing has written, with
+/// the particle.
 template <class T, int D, class R, Executor E = Serial>
 void green_lagrange_strains(const MatrixView<T, D>& F, const MatrixView<R, D>& strain, const E& execute = {}) {
   require_finite(F, "the deformation gradient");
+  detail::require_recorded(F);
   require_size(strain, F.size(), "strains");
   require_apart(strain, "strains", F, "deformation gradients");
   execute(F.size(), [&](std::size_t i) {
@@ -56,6 +59,7 @@ void green_lagrange_strains(const MatrixView<T, D>& F, const MatrixView<R, D>& s
 template <class T, int D, class R, Executor E = Serial>
 void principal_stretches(const MatrixView<T, D>& F, const VectorView<R, D>& stretches, const E& execute = {}) {
   require_finite(F, "the deformation gradient");
+  detail::require_recorded(F);
   require_size(stretches, F.size(), "stretches");
   require_apart(stretches, "stretches", F, "deformation gradients");
   execute(F.size(), [&](std::size_t i) {

@@ -13,6 +13,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/diagnostics/energy.hpp"
+#include "hmps/diagnostics/recorded.hpp"
 #include "hmps/laws/law.hpp"
 
 /// Stress for output, from deformation gradients and the law: `cauchy_stress` and `von_mises_stress` of one particle,
@@ -84,7 +85,7 @@ void require_finite_result(const View<R, N>& values, const MatrixView<T, D>& F, 
 template <class T, int D, class Material, class R, int N, class Value, class E>
 void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const View<R, N>& stress, const char* name,
                      const Value& value, const E& execute) {
-  require_view(F, "deformation gradients");
+  require_recorded(F);
   require_size(stress, F.size(), "stresses");
   require_apart(stress, "stresses", F, "deformation gradients");
   execute(F.size(), [&](std::size_t i) {

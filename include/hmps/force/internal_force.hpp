@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <type_traits>
@@ -128,7 +129,8 @@ class InternalForce {
   ///
   /// @param volume  of a particle in the reference configuration in m^D, l0^D on a lattice: a number, a view or a
   ///                callable
-  /// Throws `InputError` for views of the wrong size and a volume that is not positive. A term of your own needs an
+  /// Throws `InputError` for views of the wrong size and a volume that is not positive or not that of a particle
+  /// between these bonds. A term of your own needs an
   /// energy of its own: see `ParticleState`.
   template <class X, PerParticle Vol, Executor E = Serial>
   [[nodiscard]] ForceEnergy<sizeof...(Terms)> energy(const VectorView<X, D>& x, const Vol& volume,
@@ -136,6 +138,7 @@ class InternalForce {
     const B& now = bonds();
     require_size(x, now.size(), "positions");
     require_positive(volume, now.size(), "volume", "m3");
+    if constexpr (std::is_arithmetic_v<Vol>) require_volume(now, static_cast<double>(volume));
     const typename B::template Slots<1>* scales = nullptr;
     if constexpr (dilates) scales = &sweeps_.scales();
     return detail::energies(now, sweeps_.terms(), scales, x, volume, execute);
@@ -147,10 +150,18 @@ class InternalForce {
   [[nodiscard]] std::size_t bytes() const { return sweeps_.bytes() + restricted_.bytes(); }
 
  private:
+  /// Throws `InputError` for a volume that cannot be that of a particle between these bonds, as a length in its place.
+  static void require_volume(const B& bonds, double volume) {
+    constexpr double most = 100;
+    const double length = std::sqrt(bonds.standard_lambda()), share = volume / std::pow(length, D);
+    detail::require(share < most && share > 1 / most, "hmps: the volume of a particle is ", volume, " m", D,
+                    ", but bonds are ", length, " m long; give l0^", D, " of the spacing l0");
+  }
   template <class X, class V>
   void require_sizes(const VectorView<X, D>& x, const VectorView<V, D>& v) const {
     require_size(x, bonds_->size(), "positions");
     require_size(v, bonds_->size(), "velocities");
+    if constexpr (Sweeps::damps) require_apart(x, "positions", v, "velocities");
   }
   template <class X, class V, class F>
   void require_forces(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
@@ -29,31 +30,30 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// (Nanson's formula), so that a body under uniform pressure is in exact equilibrium. The area of a face is distributed
 /// over all particles within the effective radius of it, two layers with that of \paper{8}, and adds up to the area of
-/// the face. A particle near an edge has the areas of both faces.
+/// the face. A particle near an edge has the areas of both faces. In a wall of fewer than four layers the areas of its
+/// two faces fall on the same particles and cancel in part or whole: `PatchPressure` serves there.
 template <int D>
 class Pressure {
  public:
   /// Loads the particles of `loaded`, which should contain all particles that carry the area of the loaded face: with
   /// the paper's radius the two outermost layers. `bonds` are used only in the constructor. Throws `InputError` if the
-  /// set has the wrong size or contains no particle near a surface.
+  /// set has the wrong size or contains no particle near a surface, and for a wall of fewer than four layers.
   template <Bonds B>
   requires(B::dimension == D) Pressure(const B& bonds, const ParticleSet& loaded)
-      : size_(bonds.size()), particles_(loaded.indices()), area_(particles_.size(), Vector<double, D>::Zero()) {
+      : size_(bonds.size()), particles_(loaded.indices()), area_(particles_.size()) {
     detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is of ",
                     loaded.scene_size(), " particles but the bonds are of ", size_, "; make both of the same scene");
     double largest = 0, least = 0;  // |b| of a face is of the order of one over the length of a bond
     for (std::size_t k = 0; k < particles_.size(); ++k) {
-      const std::size_t i = particles_[k];
-      const Matrix<double, D> own = bonds.shape_inverse(i).template cast<double>();
-      bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {
-        const Vector<double, D> r = r0.template cast<double>();
-        area_[k] -= static_cast<double>(w) * ((own + bonds.shape_inverse(j).template cast<double>()) * r);
-        least = std::max(least, 1e-3 / r.norm());
+      area_[k] = area_per_volume(bonds, particles_[k]);
+      bonds.for_each_bond(particles_[k], [&](std::size_t, const auto& r0, auto) {
+        least = std::max(least, 1e-3 / r0.template cast<double>().norm());
       });
       largest = std::max(largest, area_[k].norm());
     }
     detail::require(largest > least, "hmps: none of the ", particles_.size(),
                     " particles under pressure is near a surface; name those of the outermost layers");
+    require_thick(bonds, largest);
   }
 
   /// Adds the force density (N/m3) of the pressure `p` (Pa, positive if it pushes inwards) at the deformation gradients
@@ -85,6 +85,60 @@ class Pressure {
   }
 
  private:
+  /// b_i in 1/m.
+  template <Bonds B>
+  [[nodiscard]] static Vector<double, D> area_per_volume(const B& bonds, std::size_t i) {
+    Vector<double, D> area = Vector<double, D>::Zero();
+    const Matrix<double, D> own = bonds.shape_inverse(i).template cast<double>();
+    bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {
+      const Vector<double, D> r = r0.template cast<double>();
+      area -= static_cast<double>(w) * ((own + bonds.shape_inverse(j).template cast<double>()) * r);
+    });
+    return area;
+  }
+  /// How far the body reaches behind particle `i`, against `outward` (a unit vector), in m: up to `steps` bonds.
+  template <Bonds B>
+  [[nodiscard]] static double depth_behind(const B& bonds, std::size_t i, const Vector<double, D>& outward, int steps) {
+    constexpr double astray = 0.3;  // what a metre beside the straight line counts
+    Vector<double, D> way = Vector<double, D>::Zero();
+    for (int step = 0; step < steps; ++step) {
+      double best = -way.dot(outward) - astray * (way - way.dot(outward) * outward).norm();
+      Vector<double, D> further = way;
+      std::size_t next = i;
+      bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto) {
+        const Vector<double, D> to = way + r0.template cast<double>();
+        const double down = -to.dot(outward), score = down - astray * (to + down * outward).norm();
+        if (score > best) best = score, further = to, next = j;
+      });
+      if (next == i) break;
+      i = next;
+      way = further;
+    }
+    return -way.dot(outward);
+  }
+  /// Throws `InputError` where the body has fewer than four layers behind a face: its area lies in the two outermost
+  /// ones, and that of the opposite face in the two on the other side.
+  template <Bonds B>
+  void require_thick(const B& bonds, double largest) const {
+    double spacing = 0;  // mean distance of the nearest neighbours
+    for (const Index i : particles_) {
+      double nearest = std::numeric_limits<double>::max();
+      bonds.for_each_bond(i, [&](std::size_t, const auto& r0, auto) {
+        nearest = std::min(nearest, r0.template cast<double>().norm());
+      });
+      spacing += nearest / static_cast<double>(particles_.size());
+    }
+    for (std::size_t k = 0; k < particles_.size(); ++k) {
+      const double size = area_[k].norm();
+      if (size < 0.5 * largest) continue;
+      const double depth = depth_behind(bonds, particles_[k], area_[k] / size, 3);
+      detail::require(depth > 2.5 * spacing, "hmps: the body reaches only ", depth, " m behind particle ",
+                      particles_[k],
+                      " under pressure, fewer than four layers: the areas of the two faces of such a "
+                      "wall fall on the same particles and cancel; load it by PatchPressure, or give it more layers");
+    }
+  }
+
   std::size_t size_;
   std::vector<Index> particles_;
   std::vector<Vector<double, D>> area_;

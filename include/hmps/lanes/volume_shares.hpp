@@ -30,6 +30,10 @@ template <int D, class V>
   require(mean < most && mean > 1 / most, "hmps: the volumes are ", mean * cell, " m", D,
           " in the mean, but the cube of the spacing of ", l0, " m has ", cell, " m", D,
           "; give both in metres, and the spacing of these particles");
+  constexpr double largest = 64;
+  for (std::size_t i = 0; i < size; ++i)
+    require(shares[i] < largest, "hmps: the volume of particle ", i, " is ", volumes[i], " m", D, ", ", shares[i],
+            " times the cube of the spacing of ", l0, " m; give the volume of each particle by itself");
   return shares;
 }
 

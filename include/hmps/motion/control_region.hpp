@@ -88,6 +88,7 @@ class ControlRegion {
                     speed_limit, " m/s; give a positive number, or leave it out");
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
+    require_apart(x, "positions", reference_, "reference positions of a control region");
     const auto pose = motion_(t);
     const double per_step = 1 / dt, largest = std::min(speed_limit * speed_limit, std::numeric_limits<double>::max());
     execute(particles_.size(), [&](std::size_t k) {
@@ -125,6 +126,7 @@ class ControlRegion {
   void place(const VectorView<X, D>& x, const VectorView<V, D>& v, double t) const {
     require_size(x, reference_.size(), "positions");
     require_size(v, reference_.size(), "velocities");
+    require_apart(x, "positions", reference_, "reference positions of a control region");
     detail::require(detail::is_finite(t), "hmps: a control region is placed at the time ", t,
                     " s; give finite seconds");
     constexpr double h = 1e-6;

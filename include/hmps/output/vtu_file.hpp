@@ -214,11 +214,11 @@ class VtuSeries {
  public:
   /// Begins the collection `path` (.pvd). Throws `InputError` where its folder cannot be made or written to, and for a
   /// name that does not end in .pvd.
-  explicit VtuSeries(std::filesystem::path path) : path_(std::move(path)) {
+  explicit VtuSeries(const std::filesystem::path& path) : path_(std::filesystem::absolute(path)) {
     detail::require(path_.extension() == ".pvd", "hmps: ", path_.string(),
                     " is to be a ParaView collection; end it in .pvd");
     std::error_code problem;
-    if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), problem);
+    std::filesystem::create_directories(path_.parent_path(), problem);
     detail::replace_file(path_, pvd_text(frames_));
   }
 

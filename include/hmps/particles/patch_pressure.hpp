@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -20,17 +21,34 @@
 
 namespace hmps::inline HMPS_ABI {
 
+namespace detail {
+/// Throws `InputError` if `distance` (m) is larger than the cloud of `points`, as where it is in millimetres.
+template <class T>
+void require_extent(const VectorView<T, 3>& points, double distance) {
+  if (points.size() < 2) return;
+  Vector<double, 3> low = points[0].template cast<double>(), high = low;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    low = low.cwiseMin(points[i].template cast<double>());
+    high = high.cwiseMax(points[i].template cast<double>());
+  }
+  require(distance <= (high - low).norm(), "hmps: particles within ", distance,
+          " m of a patch are asked for, but the particles themselves span ", (high - low).norm(),
+          " m only, so that all would be near; give a distance such as the spacing, in metres");
+}
+}  // namespace detail
+
 /// The particles that lie within `distance` (m) of the patch: those to be held, say, by `hold`, by `ControlRegion` or,
 /// as `~particles_near(...)`, by the `moves` of `relax`. One layer, as README.md advises, is within 0.99 spacings of a
 /// face along the lattice; of a face at an angle to it that takes one to two layers, of which
 /// `surface_layers(...).outermost` are one. Throws `InputError` where there is none, for a distance that is not
-/// positive, and for a broken surface.
+/// positive or larger than the body, and for a broken surface.
 template <class T, class S, Executor E = Serial>
 [[nodiscard]] ParticleSet particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch, double distance,
                                          const E& execute = {}) {
   detail::require(detail::is_finite(distance) && distance > 0, "hmps: particles within ", distance,
                   " m of a patch are asked for; give a positive distance, such as the spacing");
   require_finite(points, "the position");
+  detail::require_extent(points, distance);
   const TriangleTree tree(patch);
   std::vector<char> is_near(points.size(), 0);
   execute(points.size(),
@@ -72,8 +90,8 @@ class PatchPressure {
 
   /// Adds to `f` (N/m3) the force densities of `pressure` (Pa, positive where it presses on the body) at the positions
   /// `x` in m, for particles of the `volume` in m3, a number or a `ScalarView`. Runs in order, so that the result does
-  /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite and a volume
-  /// that is not positive.
+  /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite, a volume
+  /// that is not positive, and one number that is not about the cube of the spacing.
   template <class X, PerParticle Vol, class F>
   void add(const VectorView<X, 3>& x, const VectorView<F, 3>& f, double pressure, const Vol& volume) const {
     require_size(f, x.size(), "force densities");
@@ -81,6 +99,13 @@ class PatchPressure {
     detail::require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure,
                     " Pa; give a finite number");
     require_positive(volume, x.size(), "volume", "m3");
+    if constexpr (std::is_arithmetic_v<Vol>) {
+      constexpr double most = 8;
+      const double share = static_cast<double>(volume) / (spacing_ * spacing_ * spacing_);
+      detail::require(share < most && share > 1 / most, "hmps: a patch presses on particles of ", volume,
+                      " m3, but the cube of their spacing of ", spacing_, " m has ", spacing_ * spacing_ * spacing_,
+                      " m3; give the volume of one particle, behind the pressure");
+    }
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());
     for (const auto& t : triangles_) {
@@ -113,7 +138,9 @@ class PatchPressure {
 
   template <class T, class S, class Belongs>
   PatchPressure(const VectorView<T, 3>& reference, const Refined<S>& fine, double spacing, const Belongs& belongs)
-      : carried_(reference, vectors(fine.mesh.vertices), spacing, belongs), triangles_(fine.mesh.triangles) {
+      : spacing_(spacing),
+        carried_(reference, vectors(fine.mesh.vertices), spacing, belongs),
+        triangles_(fine.mesh.triangles) {
     require_outward(reference, fine.mesh, spacing);
   }
 
@@ -147,6 +174,7 @@ class PatchPressure {
     return corner;
   }
 
+  double spacing_;  // m
   CarriedSurface<3> carried_;
   std::vector<std::array<Index, 3>> triangles_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
@@ -13,6 +14,7 @@ namespace hmps::inline HMPS_ABI {
 /// A shape in `D` dimensions: `shape(x)` with `x` a `Vector<S, D>` in metres is negative inside, positive outside, and
 /// approximates the signed distance to the surface in metres. Models: the primitives and combinators of this folder,
 /// any lambda. Shapes are values that capture by value, so that a composed shape compiles to straight code.
+/// A primitive of a negative size is NaN everywhere, which what samples shapes refuses.
 ///
 /// *Exact* shapes return the Euclidean distance everywhere. *First-order* shapes return f / |grad f| of an implicit
 /// function f: the zero surface is exact, the distance near it is correct to first order, and far away only the sign
@@ -24,6 +26,12 @@ concept Shape = requires(const F& shape, const Vector<S, D>& x) {
 };
 
 namespace detail {
+/// `distance`, or NaN, which all that samples shapes refuses, for a shape that does not exist: of a negative size.
+template <class S>
+[[nodiscard]] S distance_if(bool exists, S distance) {
+  return exists ? distance : std::numeric_limits<S>::quiet_NaN();
+}
+
 /// Parameter in [0, 1] of the point nearest to `x` on the segment from `from` to `to`; 0 if the segment is a point.
 template <class S, int D>
 [[nodiscard]] S nearest_on_segment(const Vector<S, D>& from, const Vector<S, D>& to, const Vector<S, D>& x) {
@@ -38,7 +46,9 @@ template <class S, int D>
 struct Ball {
   Vector<S, D> centre = Vector<S, D>::Zero();  ///< m
   S radius{};                                  ///< m, positive
-  [[nodiscard]] S operator()(const Vector<S, D>& x) const { return (x - centre).norm() - radius; }
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    return detail::distance_if(radius >= S(0), (x - centre).norm() - radius);
+  }
 };
 
 /// Ellipse or ellipsoid with axes along the coordinate axes (turn it with `rotated`). First order.
@@ -61,7 +71,8 @@ struct Box {
   Vector<S, D> upper;  ///< m, each component above that of `lower`
   [[nodiscard]] S operator()(const Vector<S, D>& x) const {
     const Vector<S, D> beyond = (lower - x).cwiseMax(x - upper);
-    return beyond.cwiseMax(S(0)).norm() + std::min(beyond.maxCoeff(), S(0));
+    return detail::distance_if((lower.array() <= upper.array()).all(),
+                               beyond.cwiseMax(S(0)).norm() + std::min(beyond.maxCoeff(), S(0)));
   }
 };
 
@@ -81,7 +92,7 @@ struct Capsule {
   S radius{};         ///< m, positive
   [[nodiscard]] S operator()(const Vector<S, D>& x) const {
     const S s = detail::nearest_on_segment(from, to, x);
-    return (x - from - s * (to - from)).norm() - radius;
+    return detail::distance_if(radius >= S(0), (x - from - s * (to - from)).norm() - radius);
   }
 };
 
@@ -93,6 +104,7 @@ struct RoundCone {
   S radius_from{};    ///< m, at `from`
   S radius_to{};      ///< m, at `to`
   [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    if (!(radius_from >= S(0) && radius_to >= S(0))) return std::numeric_limits<S>::quiet_NaN();
     const Vector<S, D> along = to - from;
     const S length = along.norm();
     const S fall = radius_from - radius_to;
@@ -125,7 +137,8 @@ struct Cylinder {
     const S axial = arm.dot(along) / length;
     const S side = (arm - axial / length * along).norm() - radius;
     const S end = std::max(-axial, axial - length);
-    return Vector<S, 2>(std::max(side, S(0)), std::max(end, S(0))).norm() + std::min(std::max(side, end), S(0));
+    return detail::distance_if(radius >= S(0), Vector<S, 2>(std::max(side, S(0)), std::max(end, S(0))).norm() +
+                                                   std::min(std::max(side, end), S(0)));
   }
 };
 
@@ -137,7 +150,8 @@ struct Torus {
   S radius{};                                  ///< m, of the tube
   [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
     const Vector<S, 3> arm = x - centre;
-    return std::hypot(std::hypot(arm[0], arm[1]) - ring, arm[2]) - radius;
+    return detail::distance_if(ring >= S(0) && radius >= S(0),
+                               std::hypot(std::hypot(arm[0], arm[1]) - ring, arm[2]) - radius);
   }
 };
 

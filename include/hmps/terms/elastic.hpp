@@ -22,19 +22,20 @@ concept ValidatesItself = requires(const Law& law) {
   law.validate();
 };
 
-/// Throws `InputError` if the stress `P` (Pa) at the small deformation `F` is not finite, or Kirchhoff's stress P F^T
-/// not symmetric.
+/// Throws `InputError` if the stress `P` (Pa) at the small deformation `F` is not finite, Kirchhoff's stress P F^T not
+/// symmetric, or the stress falls from `at_rest`, that at F = 1, where the strain grows.
 template <class K, int D>
 HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Matrix<Lanes<K>, D>& P,
-                              const Matrix<Lanes<K>, D>& F) {
+                              const Matrix<Lanes<K>, D>& F, const Matrix<Lanes<K>, D>& at_rest) {
   constexpr double most = 0.05;  // far above rounding and what a law for small strain leaves, some thousandths
   for (int l = 0; l < Lanes<K>::width; ++l) {
     const Index i = particles.particle(l);
     if (i == Blocks<K, D>::none) continue;
-    Matrix<double, D> stress, gradient;
+    Matrix<double, D> stress, gradient, rise;
     for (int k = 0; k < D * D; ++k) {
       stress(k % D, k / D) = static_cast<double>(P(k % D, k / D).lane[l]);
       gradient(k % D, k / D) = static_cast<double>(F(k % D, k / D).lane[l]);
+      rise(k % D, k / D) = stress(k % D, k / D) - static_cast<double>(at_rest(k % D, k / D).lane[l]);
     }
     require(all_finite(stress), "hmps: the law of particle ", i,
             " gives a stress that is not finite at a strain of a thousandth: P is (by columns) ", stress,
@@ -43,6 +44,10 @@ HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Mat
     require((kirchhoff - kirchhoff.transpose()).norm() <= most * kirchhoff.norm(), "hmps: the law of particle ", i,
             " gives a stress that turns the particle: P F^T is (by columns) ", kirchhoff,
             " Pa, and must be symmetric; is S symmetric, or is P returned for S, or transposed?");
+    const Matrix<double, D> strain = gradient - Matrix<double, D>::Identity();
+    require(rise.cwiseProduct(strain).sum() >= -most * rise.norm() * strain.norm(), "hmps: the law of particle ", i,
+            " gives a stress that falls where the strain grows: at F - 1 = (by columns) ", strain, " P rises by ", rise,
+            " Pa, so that the body would burst from rest; is the sign of the stress right?");
   }
 }
 
@@ -69,7 +74,8 @@ struct Elastic {
 
   /// Throws `InputError` for a law of each particle with a bulk or shear modulus that is not positive, and for a law of
   /// your own whose stress at a small strain is not finite, or that turns the particle: Kirchhoff's stress P F^T is not
-  /// symmetric. Laws that validate themselves were checked when the term was made.
+  /// symmetric, or that falls where the strain grows. Laws that validate themselves were checked when the term was
+  /// made.
   template <class K, int D>
   requires(!detail::ValidatesItself<Law>) void check_parameters(const BlockOfParticles<K, D>& particles) const {
     const auto& own = detail::value_at(law, particles);
@@ -78,7 +84,9 @@ struct Elastic {
       detail::require_values<K, D>(particles, Lanes<K>(own.bulk_modulus()), "bulk modulus of the law", "Pa", true);
     } else {
       const Matrix<Lanes<K>, D>& F = particles.deformation_gradient;
-      detail::require_stress<K, D>(particles, first_piola_kirchhoff(own, F), F);
+      Matrix<Lanes<K>, D> rest;
+      for (int k = 0; k < D * D; ++k) rest(k % D, k / D) = Lanes<K>(static_cast<K>(k % D == k / D));
+      detail::require_stress<K, D>(particles, first_piola_kirchhoff(own, F), F, first_piola_kirchhoff(own, rest));
     }
   }
 

@@ -322,6 +322,50 @@ TEST(Relax, NamesTheParticleWhoseForceIsNotFinite) {
       StateError);
 }
 
+// It was at rest at once, without a word: forces times a volume of a millionth count for nothing.
+TEST(Relax, RefusesASpacingInAnotherUnit) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+  for (const double spacing : {1e-3 * l0, 1e3 * l0, l0 / 5, 5 * l0}) {
+    const std::string words = words_of([&] {
+      (void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                  {.spacing = spacing, .load = body.weight(), .moves = body.moves()});
+    });
+    EXPECT_TRUE(has(words, "the spacing of relax is")) << spacing << words;
+  }
+}
+
+// The lambda below looks at the user's own views and writes to them: relax saw no force, and said that all was at rest.
+TEST(Relax, RefusesAForceThatDoesNotWriteWhereItIsAsked) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+  auto weighed = body.with_weight(force);
+  const auto own = [&](const auto&, const auto&, const auto&) { weighed(body.x(), body.v(), body.f()); };
+  std::vector<Vector<double, 2>> other(body.load.size(), Vector<double, 2>::Zero());
+  const auto start = body.position;
+  const std::string words = words_of([&] {
+    (void)relax(own, body.x(), body.v(), vectors(other), density,
+                {.spacing = l0, .load = body.weight(), .moves = body.moves()});
+  });
+  EXPECT_TRUE(has(words, "writes nothing")) << words;
+  EXPECT_EQ(body.position, start);
+  // Nothing to do is no error: what is at rest already has a force as soon as it is moved.
+  const auto springs = [&](const auto& x, const auto&, const auto& f) {
+    for (std::size_t i = 0; i < x.size(); ++i) f.set(i, Vector<double, 2>(-1e6 * (x[i] - start[i])));
+  };
+  EXPECT_EQ(relax(springs, body.x(), body.v(), body.f(), density, {.spacing = l0, .load = 1}).iterations, 0);
+}
+
+// It fell for all of the iterations that it may make, and then asked for more of them.
+TEST(Relax, SaysWhenNothingHoldsTheBody) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+  const std::string words = words_of([&] {
+    (void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density, {.spacing = l0, .load = body.weight()});
+  });
+  EXPECT_TRUE(has(words, "nothing holds it")) << words;
+}
+
 TEST(Relax, BadInputIsRefused) {
   Standing<double, 2> body(column<2>(2, 3));
   std::vector<Vector<double, 2>> few(2);

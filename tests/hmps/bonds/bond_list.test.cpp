@@ -140,6 +140,18 @@ TEST(BondList, CarriesTheVolumesOfItsParticles) {
   refused("volumes");
 }
 
+// Half a kilometre from the origin a float moves by 3e-5 m or not at all.
+TEST(BondList, RefusesPositionsThatTheirScalarDoesNotResolve) {
+  const auto made = [](float origin) {
+    scenes::Points<3> near = scenes::box<3>({4, 4, 4});
+    std::vector<hmps::Vector<float, 3>> X;
+    for (const auto& x : near) X.push_back(x.cast<float>() + hmps::Vector<float, 3>::Constant(origin));
+    return hmps::BondList<float, 3>(hmps::vectors(X), {.spacing = scenes::Scene<3>::spacing}).size();
+  };
+  EXPECT_EQ(made(1), 64U);
+  EXPECT_NE(hmps_test::message_of([&] { (void)made(500); }).find("take positions in double"), std::string::npos);
+}
+
 TEST(BondList, OfNoParticlesIsEmpty) {
   const scenes::Points<2> none;
   const hmps::BondList<double, 2> bonds(hmps::vectors(none), {.spacing = 1});

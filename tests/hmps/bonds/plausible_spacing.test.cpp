@@ -41,6 +41,13 @@ TEST(PlausibleSpacing, RefusesASpacingThatLeavesNearlyAllAlone) {
   EXPECT_TRUE(has(error, "the typical distance to the nearest particle is 0.0012 m")) << error;
 }
 
+// A radius in metres where a number of spacings is asked for: the spacing is not what is wrong.
+TEST(PlausibleSpacing, NamesARadiusThatIsNoNumberOfSpacings) {
+  constexpr double l0 = scenes::Scene<3>::spacing;
+  const std::string error = error_with<3>(scenes::box<3>({6, 6, 6}), l0, 1.75 * l0);
+  EXPECT_TRUE(has(error, "radius_ratio is a number of spacings")) << error;
+}
+
 // Up to 1.5 times the distance on the lattice and 0.7 of it, also in the plane and with other radii: unusual, but
 // nothing that must be an error. Twice that distance gives eight times the neighbours inside the body, and is one.
 TEST(PlausibleSpacing, TakesWhatIsOnlyUnusual) {

@@ -307,7 +307,9 @@ TEST(InternalForce, RefusesForcesInTheMemoryOfTheState) {
   const auto X = hmps::vectors(x), V = hmps::vectors(v);
   EXPECT_TRUE(has(error_of([&] { force(X, V, X); }), "forces and positions are the same memory"));
   EXPECT_TRUE(has(error_of([&] { force(X, V, V); }), "forces and velocities are the same memory"));
-  EXPECT_TRUE(has(error_of([&] { force.kick(X, X, 1e3, 1e-6); }), "velocities and positions are the same memory"));
+  EXPECT_TRUE(has(error_of([&] { force.kick(X, X, 1e3, 1e-6); }), "positions and velocities are the same memory"));
+  Vectors<3> f(x.size());
+  EXPECT_TRUE(has(error_of([&] { force(X, X, hmps::vectors(f)); }), "positions and velocities are the same memory"));
   EXPECT_TRUE(x == scene.x && v == scene.v);
 }
 
@@ -352,6 +354,36 @@ concept WithoutVelocities = requires(Force& force, const hmps::VectorView<double
 };
 static_assert(WithoutVelocities<hmps::InternalForce<Lattice, hmps::Artificial<double>>>);
 static_assert(!WithoutVelocities<hmps::InternalForce<Lattice, hmps::Viscous>>);
+
+// The length of an edge in place of the volume of its cube.
+TEST(InternalForce, RefusesAnEnergyOfVolumesThatAreNone) {
+  const auto scene = scene_of("box");
+  const auto bonds = make_bonds<Lattice>(scene);
+  const auto force = hmps::internal_force(bonds, hmps::elastic(law));
+  const double l0 = scenes::Scene<3>::spacing;
+  EXPECT_NO_THROW((void)force.energy(hmps::vectors(scene.x), l0 * l0 * l0));
+  for (const double volume : {l0, l0 * l0, 1e9 * l0 * l0 * l0, 1e-3 * l0 * l0 * l0})
+    EXPECT_TRUE(has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), volume); }), "give l0^3")) << volume;
+}
+
+struct Bursting {
+  double mu;
+  template <class T, int D>
+  auto second_piola_kirchhoff(const hmps::Matrix<T, D>& C, const T&) const {
+    hmps::Matrix<T, D> S = C;
+    for (int k = 0; k < D * D; ++k)
+      S(k % D, k / D) = (C(k % D, k / D) - T(k % D == k / D ? 1.F : 0.F)) * T(static_cast<float>(mu));
+    return S;
+  }
+};
+// With the sign of the stress turned round a body was NaN within some thousand steps.
+TEST(InternalForce, RefusesALawWhoseStressFallsWhereTheStrainGrows) {
+  const auto bonds = make_bonds<Lattice>(scene_of("box"));
+  EXPECT_NO_THROW((void)hmps::internal_force(bonds, hmps::elastic(Bursting{7e3})));
+  EXPECT_TRUE(has(error_of([&] { (void)hmps::internal_force(bonds, hmps::elastic(Bursting{-7e3})); }),
+                  "a stress that falls where the strain grows"));
+}
+
 // The bonds must outlive the force.
 template <class B>
 concept TakesTemporaryBonds = requires(B&& bonds) {

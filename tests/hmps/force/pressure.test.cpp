@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/neo_hookean.hpp"
 #include "hmps/particles/lattice.hpp"
+#include "hmps/particles/support.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/terms/elastic.hpp"
 
@@ -83,6 +85,44 @@ TEST(Pressure, IsInEquilibriumWithAUniformStress) {
   hmps::Pressure(s.bonds, everything).add(hmps::matrices(s.gradient), hmps::vectors(s.load), p);
   for (const Vector& f : s.load) left = std::max(left, f.norm());
   EXPECT_LE(left, 1e-10 * largest);
+}
+
+// The two faces of a wall of fewer than four layers share their particles: of two layers nothing was left.
+TEST(Pressure, RefusesWallsWhoseFacesCancel) {
+  for (const int layers : {1, 2, 3, 4, 5, 8}) {
+    const double top = layers * l0;
+    const hmps::Box<double, 3> box{Vector::Zero(), Vector(0.01, 0.012, top)};
+    const auto wall = hmps::fill_lattice(box, box, l0, Vector(Vector::Constant(l0 / 2)));
+    const auto make = [&] {
+      const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(wall), {.spacing = l0});
+      const hmps::ParticleSet loaded(wall.size(), [&](std::size_t i) { return wall[i][2] > top - 2 * l0; });
+      const Vector area = hmps::Pressure(bonds, loaded).area(volume);
+      EXPECT_LE((area - Vector(0, 0, 0.01 * 0.012)).norm(), 1e-9 * 0.01 * 0.012) << layers;
+    };
+    if (layers >= 4)
+      EXPECT_NO_THROW(make()) << layers;
+    else
+      EXPECT_THROW(make(), hmps::InputError) << layers;  // one layer does not even span space
+  }
+}
+// What a lattice or edges make of the surface of a thick body is no thin wall.
+TEST(Pressure, TakesAnyThickBody) {
+  const auto whole = [](const auto& points) {
+    const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+    const hmps::Pressure all(bonds, hmps::ParticleSet(points.size(), [](std::size_t) { return true; }));
+    EXPECT_LE(all.area(volume).norm(), 1e-12);
+  };
+  for (const double radius : {4.2e-3, 6e-3, 7.3e-3}) {
+    const hmps::Ball<double, 3> ball{Vector(0.2e-3, 0.1e-3, 0.37e-3), radius};
+    const Vector reach = Vector::Constant(9e-3);
+    whole(hmps::fill_lattice(ball, hmps::Box<double, 3>{-reach, reach}, l0));
+    const hmps::Cylinder<double, 3> oblique{Vector(-4e-3, -3e-3, -2e-3), Vector(4e-3, 3e-3, 2e-3), radius};
+    const auto kept = hmps::fill_lattice(oblique, hmps::Box<double, 3>{-2 * reach, 2 * reach}, l0);
+    std::vector<Vector> points;
+    for (const hmps::Index i : hmps::supported_particles(hmps::vectors(kept), {.spacing = l0}))
+      points.push_back(kept[i]);
+    whole(points);
+  }
 }
 
 TEST(Pressure, RefusesBadInput) {

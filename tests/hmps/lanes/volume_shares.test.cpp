@@ -31,6 +31,12 @@ TEST(VolumeShares, RefusesBadVolumes) {
   refused({8, 8, std::numeric_limits<double>::infinity()}, "the volume of particle 2 is inf m3");
   refused({8e9, 8e9, 8e9}, "the cube of the spacing of 2 m");
   refused({0.8, 0.8, 0.8}, "the cube of the spacing of 2 m");
+  EXPECT_NE(message_of([&] {
+              std::vector<double> one_of_many(100, 8);
+              one_of_many[7] = 65 * 8;
+              (void)shares(one_of_many, 100, 2);
+            }).find("the volume of particle 7 is 520 m3"),
+            std::string::npos);
 }
 
 TEST(VolumeShares, OfBondsThatKnowNoneAreOne) {

@@ -181,6 +181,11 @@ TEST(ControlRegionMisuse, IsRefused) {
   EXPECT_THROW(region.prescribe(hmps::vectors(x), hmps::vectors(v), -1, 1e-3, -5.0), hmps::InputError);
   EXPECT_EQ(x, X);
   EXPECT_THROW((ControlRegion<double, 3>({1}, reference, nullptr)), hmps::InputError);
+  // Made of the positions that it moves, it would go further with each step.
+  const auto shift = [](double t) { return hmps::Pose<double, 3>{.translation = V(t, 0, 0)}; };
+  const ControlRegion<double, 3> moving({1}, hmps::vectors(std::as_const(x)), shift);
+  EXPECT_THROW(moving.prescribe(hmps::vectors(x), hmps::vectors(v), 1, 1e-3), hmps::InputError);
+  EXPECT_THROW(moving.place(hmps::vectors(x), hmps::vectors(v), 1), hmps::InputError);
 }
 
 }  // namespace control_region_test

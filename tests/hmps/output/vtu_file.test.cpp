@@ -115,6 +115,20 @@ TEST(VtuFileMisuse, TwoSeriesOnOnePathAreNoticed) {
   EXPECT_EQ(detail::read_text((folder.path() / "run.pvd").string()), pvd_text(second.frames()));
 }
 
+TEST(VtuSeries, StaysInItsFolderWhereverTheProgramGoes) {
+  const Cloud cloud;
+  const hmps_test::TemporaryFolder folder, elsewhere;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  VtuSeries frames("run.pvd");
+  frames.add(0, vectors(cloud.x));
+  std::filesystem::current_path(elsewhere.path());
+  frames.add(1, vectors(cloud.x));
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run_00001.vtu"));
+  EXPECT_TRUE(std::filesystem::is_empty(elsewhere.path()));
+}
+
 TEST(VtuFileMisuse, IsRefused) {
   const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
   const hmps_test::TemporaryFolder folder;

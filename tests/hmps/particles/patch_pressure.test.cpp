@@ -105,6 +105,7 @@ TEST(PatchPressure, ParticlesNearAPatchAreThoseOfItsLayer) {
   for (const Index i : held) EXPECT_NEAR(body.x[i][2], l0 / 2, 1e-9);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0.4 * l0), InputError);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0), InputError);
+  EXPECT_THROW((void)particles_near(vectors(body.x), base, 2.0), InputError) << "millimetres";
 }
 
 TEST(PatchPressure, RefusesWhatDoesNotFit) {
@@ -114,6 +115,10 @@ TEST(PatchPressure, RefusesWhatDoesNotFit) {
   EXPECT_THROW(load.add(vectors(body.x), vectors(few), pressure, particle), InputError);
   EXPECT_THROW(load.add(vectors(few), vectors(few), pressure, particle), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, 0.0), InputError);
+  // The spacing for its cube, the whole body, and volume and pressure in the wrong order.
+  EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, l0), InputError);
+  EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, 480 * particle), InputError);
+  EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), particle, pressure), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), std::numeric_limits<double>::infinity(), particle),
                InputError);
 }

@@ -153,4 +153,19 @@ TEST(Torus, MeasuresDistance) {
   EXPECT_NEAR(torus(Vector<double, 3>(5, 0, 4)), 4.5, 1e-15);
 }
 
+// A shape that is not there would leave a hole in a body without a word.
+TEST(Shapes, OfNegativeSizeAreNaN) {
+  using V = Vector<double, 3>;
+  const V origin = V::Zero(), one = V::Ones();
+  for (const V& x : {origin, one, V(3, -2, 5)}) {
+    EXPECT_TRUE(std::isnan((hmps::Ball<double, 3>{origin, -1}(x))));
+    EXPECT_TRUE(std::isnan((hmps::Box<double, 3>{V(2, 0, 0), one}(x))));
+    EXPECT_TRUE(std::isnan((hmps::Capsule<double, 3>{origin, one, -1}(x))));
+    EXPECT_TRUE(std::isnan((hmps::RoundCone<double, 3>{origin, one, 1, -1}(x))));
+    EXPECT_TRUE(std::isnan((hmps::Cylinder<double, 3>{origin, one, -1}(x))));
+    EXPECT_TRUE(std::isnan((hmps::Torus<double>{origin, 1, -1}(x))));
+  }
+  EXPECT_EQ((hmps::Ball<double, 3>{origin, 0}(one)), std::sqrt(3.0));
+}
+
 }  // namespace implicit_test

@@ -55,8 +55,8 @@ class OrganPairs {
     double radius;  // r_0 in m of a slave
   };
 
-  /// Returns the number of the organ. Throws `InputError` if it is empty, and for the radius of a slave beyond a
-  /// spacing (m).
+  /// Returns the number of the organ. Throws `InputError` if it is empty, and for the radius of a slave beyond three
+  /// quarters of a spacing (m).
   std::size_t add_organ(const Organ& organ, double spacing);
   /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
@@ -149,10 +149,11 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
 }
 
 inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double spacing) {
+  constexpr double most = 0.75;  // half of the widest layers that `fit_particles` makes
   const double radius = organ.radius(slave);
-  require(is_finite(radius) && radius > 0 && radius <= spacing, "hmps: slave ", slave, " of organ '", organ.name,
+  require(is_finite(radius) && radius > 0 && radius <= most * spacing, "hmps: slave ", slave, " of organ '", organ.name,
           "' has a radius of ", radius, " m; it is about half the spacing of ", spacing,
-          " m, and must be positive and not more than that");
+          " m, and must be positive and at most ", most * spacing, " m");
   return radius;
 }
 

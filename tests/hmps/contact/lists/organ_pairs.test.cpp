@@ -82,21 +82,21 @@ TEST(OrganPairs, KeepTheRadiusOfEachSlave) {
   const List one{1, 2}, other{3}, third{4};
   OrganPairs pairs;
   const auto a =
-      pairs.add_organ({.name = "a", .slaves = one, .masters = one, .radius = [](Index i) { return 0.4 * i; }}, 1);
+      pairs.add_organ({.name = "a", .slaves = one, .masters = one, .radius = [](Index i) { return 0.35 * i; }}, 1);
   const auto b = pairs.add_organ({.name = "b", .slaves = other, .masters = other}, 1);
   const auto c = pairs.add_organ({.name = "c", .slaves = third, .masters = third}, 1);
   pairs.add_pair(c, a, {});
   pairs.add_pair(c, b, {});
   const auto& a_at_c = pairs.sides()[1];
   ASSERT_EQ(a_at_c.slaves, a);
-  EXPECT_EQ(pairs.slave_radius(1, a_at_c.first_slot), 0.4);
-  EXPECT_EQ(pairs.slave_radius(1, a_at_c.first_slot + 1), 0.8);
+  EXPECT_EQ(pairs.slave_radius(1, a_at_c.first_slot), 0.35);
+  EXPECT_EQ(pairs.slave_radius(1, a_at_c.first_slot + 1), 0.7);
   EXPECT_EQ(pairs.slave_radius(3, pairs.sides()[3].first_slot), 0.5) << "half the spacing in another organ";
 }
 
 TEST(OrganPairs, RefuseARadiusThatIsNone) {
   const List some{1, 2};
-  for (const double radius : {0., -0.5, 1.001, 500., std::nan("")}) {
+  for (const double radius : {0., -0.5, 0.751, 500., std::nan("")}) {
     OrganPairs pairs;
     const auto add = [&] {
       pairs.add_organ(
