@@ -134,15 +134,14 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
           "' names particle ", all.back().first, ", but its set of prescribed particles is of a scene of ",
           prescribed_set == nullptr ? 0 : prescribed_set->scene_size(), "; make it for all particles");
   std::vector<Member> own;
-  for (const auto& [i, role] : all) {
-    if (own.empty() || own.back().particle != i) {
-      const bool prescribed = organ.prescribed && organ.prescribed(i);
-      const double radius = organ.radius && role == is_slave ? checked_radius(organ, i, spacing) : spacing / 2;
-      own.push_back({i, no_particle, static_cast<std::uint8_t>(prescribed ? is_prescribed : 0), radius});
-    }
-    own.back().flags = static_cast<std::uint8_t>(own.back().flags | role);
+  for (auto at = all.begin(); at != all.end();) {
+    const Index i = at->first;
+    const double radius = organ.radius && at->second == is_slave ? checked_radius(organ, i, spacing) : spacing / 2;
+    auto flags = static_cast<std::uint8_t>(organ.prescribed && organ.prescribed(i) ? is_prescribed : 0);
+    for (; at != all.end() && at->first == i; ++at) flags = static_cast<std::uint8_t>(flags | at->second);
+    own.push_back({i, no_particle, flags, radius});
   }
-  views_ = std::max(views_, static_cast<std::size_t>(own.back().particle) + 1);
+  views_ = std::max(views_, static_cast<std::size_t>(all.back().first) + 1);
   organs_.push_back({organ.name, members_.size(), members_.size() + own.size()});
   members_.insert(members_.end(), own.begin(), own.end());
   return organs_.size() - 1;

@@ -34,8 +34,8 @@ struct Clouds {
         reach.push_back(radius * (0.5 + 0.25 * u(random)));
         compression.push_back(k % 10 == 0 ? -1 : 1);  // some are no walls
       }
-    const auto a = organs.add_organ({.name = "a", .slaves = lists[0], .masters = lists[0]});
-    organs.add_pair(a, organs.add_organ({.name = "b", .slaves = lists[1], .masters = lists[1]}), settings);
+    const auto a = organs.add_organ({.name = "a", .slaves = lists[0], .masters = lists[0]}, 1);
+    organs.add_pair(a, organs.add_organ({.name = "b", .slaves = lists[1], .masters = lists[1]}, 1), settings);
     organs.number_particles();
   }
   [[nodiscard]] BroadPhase<double, 3> build(bool backwards = false) const {
