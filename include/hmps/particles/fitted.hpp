@@ -16,6 +16,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/particles/fitted_cloud.hpp"
 #include "hmps/particles/fitted_field.hpp"
+#include "hmps/particles/fitted_samples.hpp"
 #include "hmps/search/grid.hpp"
 #include "hmps/shapes/implicit.hpp"
 
@@ -95,6 +96,9 @@ template <class Field, class Cloud, class E>
   for (std::size_t k = 0; k < samples.size(); ++k) {
     if (owner[k] == nobody) {
       const Layering here = field.layering(samples[k].place);
+      require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (",
+              samples[k].place.transpose(), "), in a part of the body that is no wall; give a spacing below ", l0,
+              " m, or a longest_edge of some spacings");
       throw InputError(message("hmps: the body is about ", here.thickness, " m thick at (",
                                samples[k].place.transpose(), "), too thin for ", here.count, " layers of spacing ", l0,
                                " m, and more than ", settings.longest_edge,
@@ -146,7 +150,8 @@ requires Shape<F, S, D>
   detail::FittedField<F, S, D> field(shape, box, l0, settings.least_layers);
   field.sample(execute);
   field.measure(execute);
-  detail::FittedCloud<decltype(field), D> cloud(field, settings.thinnest_spacing * l0);
+  const double thinnest = (1 - 1e-5) * settings.thinnest_spacing * l0;  // whatever the rounding of a thickness
+  detail::FittedCloud<decltype(field), D> cloud(field, thinnest);
   cloud.seed(execute);
   for (int k = 0; k < settings.iterations; ++k) {
     const double left = 1 - static_cast<double>(k) / settings.iterations;

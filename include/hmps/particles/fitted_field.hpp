@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -121,6 +122,7 @@ class FittedField {
     for (double radius = nearby; radius < farthest && !(weight > 0); radius *= 2) {
       grid_.visit(x, radius, [&](Index k, double squared) {
         const SurfacePoint<D>& point = surface_[k];
+        if ((point.place - x).dot(point.outward) < 0) return;  // it faces x, as does another part across a gap
         if (squared < closest) closest = squared, side = point.side();
         if (radius > nearby) least = std::max(least, point.least);
         if (!(point.thickness > 0)) return;
@@ -167,6 +169,8 @@ class FittedField {
   }
 
   void sample_cell(const Point& centre, Found& found) const;
+  [[nodiscard]] std::optional<SurfacePoint<D>> surface_at(Point near) const;
+  void find_other_side_of_gap(const Point& centre, Found& found) const;
 
   const F& shape_;
   Box<double, D> box_;
@@ -176,113 +180,5 @@ class FittedField {
   std::vector<SurfacePoint<D>> surface_;
   Grid<double, D> grid_;
 };
-
-template <class F, class S, int D>
-void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const {
-  constexpr int parts = samples_per_spacing, total = D == 3 ? parts * parts * parts : parts * parts;
-  const double edge = spacing_ / parts, volume = std::pow(edge, D), fine = edge / parts;
-  const double half_diagonal = 0.5 * std::sqrt(static_cast<double>(D)) * edge;
-  double nearest = std::numeric_limits<double>::infinity();
-  bool inside = false;
-  Point at = centre;
-  for (int k = 0; k < total; ++k) {
-    const Point x = part(centre, spacing_, parts, k);
-    const double d = (*this)(x);
-    inside = inside || d < 0;
-    if (std::abs(d) < nearest) nearest = std::abs(d), at = x;
-    // Distances may be a quarter too long before a cut cell is missed.
-    if (d < -1.25 * half_diagonal) {
-      found.samples.push_back({x, volume});
-    } else if (d < 1.25 * half_diagonal) {
-      Point sum = Point::Zero();
-      double share = 0;
-      for (int m = 0; m < total; ++m) {
-        const Point y = part(x, edge, parts, m);
-        const double covered = std::clamp(0.5 - (*this)(y) / fine, 0.0, 1.0) / total;
-        share += covered;
-        sum += covered * y;
-      }
-      if (share > 0) found.samples.push_back({sum / share, share * volume});
-    }
-  }
-  // Not only where the sign changes: a face may lie between two cells.
-  if (!inside || nearest > 1.25 * half_diagonal) return;
-  for (int step = 0; step < 4; ++step) {
-    const Point g = gradient(at);
-    if (!(g.squaredNorm() > 0.25)) return;
-    at -= (*this)(at) / g.squaredNorm() * g;
-  }
-  const Point g = gradient(at - 0.05 * spacing_ * gradient(at));
-  if (g.squaredNorm() > 0.8 && std::abs((*this)(at)) < 0.01 * spacing_) found.surface.push_back({at, g.normalized()});
-}
-
-template <class F, class S, int D>
-template <class E>
-void FittedField<F, S, D>::sample(const E& execute) {
-  std::array<std::size_t, std::size_t{D}> count{};
-  std::size_t total = 1;
-  for (int c = 0; c < D; ++c) {
-    const double cells = std::ceil((box_.upper[c] - box_.lower[c]) / spacing_);
-    count[static_cast<std::size_t>(c)] = std::max<std::size_t>(1, static_cast<std::size_t>(cells));
-    total *= count[static_cast<std::size_t>(c)];
-  }
-  const std::size_t slabs = count[D - 1], slab = total / slabs;
-  std::vector<std::vector<std::pair<std::uint64_t, Found>>> found(slabs);
-  const double reach = 0.75 * std::sqrt(static_cast<double>(D)) * spacing_;
-  execute(slabs, [&](std::size_t s) {
-    for (std::size_t k = 0; k < slab; ++k) {
-      Cell cell{};
-      std::size_t rest = s * slab + k;
-      Point centre;
-      for (std::size_t c = 0; c < D; ++c, rest /= count[c - 1]) {
-        cell[c] = static_cast<std::int64_t>(rest % count[c]);
-        const auto axis = static_cast<int>(c);
-        centre[axis] = box_.lower[axis] + (static_cast<double>(cell[c]) + 0.5) * spacing_;
-      }
-      if ((*this)(centre) > reach) continue;
-      Found here;
-      sample_cell(centre, here);
-      if (!here.samples.empty()) found[s].emplace_back(along_curve(cell), std::move(here));
-    }
-  });
-  std::vector<std::pair<std::uint64_t, const Found*>> order;
-  for (const auto& part : found)
-    for (const auto& [code, here] : part) order.emplace_back(code, &here);
-  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [code, here] : order) {
-    samples_.insert(samples_.end(), here->samples.begin(), here->samples.end());
-    surface_.insert(surface_.end(), here->surface.begin(), here->surface.end());
-  }
-  require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower.transpose(), ") to (",
-          box_.upper.transpose(), "); give a shape that is negative inside, and a box around it in metres");
-}
-
-template <class F, class S, int D>
-template <class E>
-void FittedField<F, S, D>::measure(const E& execute) {
-  // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Where faces meet at more they are an edge.
-  constexpr double opposite = -0.5;
-  const double most = most_layers * spacing_, step = spacing_ / 8;
-  execute(surface_.size(), [&](std::size_t k) {
-    SurfacePoint<D>& point = surface_[k];
-    // The largest ball that touches the surface here from within: it grows until it touches elsewhere.
-    for (double r = step; r <= most / 2; r += step) {
-      const Point centre = point.place - r * point.outward;
-      const double depth = -(*this)(centre);
-      if (depth > 0.9 * r && r + step <= most / 2) continue;
-      if (depth > 0.9 * r) {
-        point.least = point.thickness = most;
-        break;
-      }
-      point.least = 1.9 * (r - step);  // no ball is larger than the wall
-      // A little further, so that the difference is that of the other side.
-      const Point other = point.place - (r + step / 2) * point.outward;
-      const Point g = gradient(other);
-      if (g.dot(point.outward) < opposite) point.thickness = std::min(most, r + step / 2 - (*this)(other));
-      break;
-    }
-  });
-  grid_.build(surface_.size(), 1.5 * spacing_, [&](std::size_t k) { return surface_[k].place; });
-}
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -193,6 +193,33 @@ TEST(FitParticles, FillsTheMiddleOfABodyOfManySpacings) {
   EXPECT_LE(*std::max_element(fitted.volumes.begin(), fitted.volumes.end()), 1.5);
 }
 
+// Each side of a narrow gap has the layers of its own part: the block was hollow, and the plate clumped, where both
+// crossed one cell of the samples.
+TEST(FitParticles, TellsTheSidesOfANarrowGapApart) {
+  for (const double gap : {0.1, 0.3, 0.7})
+    for (const double shift : {0.0, 0.31, 0.6}) {
+      const Box<double, 3> block{V3(0, 0, shift - 10), V3(10, 10, shift)};
+      const Box<double, 3> plate{V3(0, 0, shift + gap), V3(10, 10, shift + gap + 2)};
+      const auto fitted = fit_particles(unite(block, plate), Box<double, 3>{V3(-1, -1, -11), V3(11, 11, 5)}, 1.0);
+      EXPECT_NEAR(static_cast<double>(fitted.size()), 1200, 6);
+      for (std::size_t i = 0; i < fitted.size(); ++i) {
+        EXPECT_NEAR(fitted.volumes[i], 1, 0.5);
+        const V3& x = fitted.positions[i];
+        if (std::min({x[0], x[1], 10 - x[0], 10 - x[1]}) < 2.8) continue;  // layers run around the rim
+        EXPECT_EQ(fitted.layers[i], x[2] < shift ? 0 : 2) << x.transpose() << ", gap " << gap << ", shift " << shift;
+      }
+    }
+}
+
+// A wall as thin as is allowed has particles everywhere, whatever the rounding of its thickness.
+TEST(FitParticles, FillsWallsOfTheThinnestSpacing) {
+  using Vf = Vector<float, 3>;
+  const auto shell = [](const Vf& x) { return std::max(x.norm() - 6, 4.8F - x.norm()); };
+  const auto fitted = fit_particles(shell, Box<float, 3>{Vf::Constant(-7), Vf::Constant(7)}, 1.0F);
+  EXPECT_NEAR(static_cast<double>(fitted.size()), 4 / 3. * 3.14159 * (216 - 4.8 * 4.8 * 4.8), 10);
+  for (const float v : fitted.volumes) EXPECT_NEAR(v, 1, 0.4);
+}
+
 TEST(FitParticles, LeavesThinEdgesToTheirNeighboursAndFillsJunctions) {
   // A wedge of 30 degrees: 1.2 thick at 2.2 from its edge.
   const double a = 15 * 3.14159265358979 / 180;
@@ -281,7 +308,9 @@ TEST(FitParticles, RefusesWhatCannotBeFitted) {
                        (void)fit_particles(ball, Box<double, 3>{V3(0, 0, 0), V3(1, 1, 0)}, 1.0);
                      }),
                      "hmps: the box to fit particles in"));
-  EXPECT_TRUE(starts(message_of([&] { (void)fit_particles(hmps::Ball<double, 3>{.radius = -1}, box, 1.0); }),
+  EXPECT_TRUE(starts(message_of([&] {
+                       (void)fit_particles(hmps::Ball<double, 3>{V3(20, 0, 0), 1}, box, 1.0);
+                     }),
                      "hmps: the shape has no volume in the box"));
   EXPECT_TRUE(
       starts(message_of([&] { (void)fit_particles([&](const V3& x) { return x[0] > 1 ? nan : ball(x); }, box, 1.0); }),

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/particles/fitted_field.hpp"
+
+/// How a `FittedField` samples the body and its surface, and measures its thickness.
+namespace hmps::inline HMPS_ABI::detail {
+
+template <class F, class S, int D>
+void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const {
+  constexpr int parts = samples_per_spacing, total = D == 3 ? parts * parts * parts : parts * parts;
+  const double edge = spacing_ / parts, volume = std::pow(edge, D), fine = edge / parts;
+  const double half_diagonal = 0.5 * std::sqrt(static_cast<double>(D)) * edge;
+  double nearest = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  Point at = centre;
+  for (int k = 0; k < total; ++k) {
+    const Point x = part(centre, spacing_, parts, k);
+    const double d = (*this)(x);
+    inside = inside || d < 0;
+    if (std::abs(d) < nearest) nearest = std::abs(d), at = x;
+    // Distances may be a quarter too long before a cut cell is missed.
+    if (d < -1.25 * half_diagonal) {
+      found.samples.push_back({x, volume});
+    } else if (d < 1.25 * half_diagonal) {
+      Point sum = Point::Zero();
+      double share = 0;
+      for (int m = 0; m < total; ++m) {
+        const Point y = part(x, edge, parts, m);
+        const double covered = std::clamp(0.5 - (*this)(y) / fine, 0.0, 1.0) / total;
+        share += covered;
+        sum += covered * y;
+      }
+      if (share > 0) found.samples.push_back({sum / share, share * volume});
+    }
+  }
+  // Not only where the sign changes: a face may lie between two cells.
+  if (!inside || nearest > 1.25 * half_diagonal) return;
+  if (const auto point = surface_at(at)) {
+    found.surface.push_back(*point);
+    find_other_side_of_gap(centre, found);
+  }
+}
+
+/// The point of the surface by a place close to it; none at edges, where the shape has no direction outwards.
+template <class F, class S, int D>
+std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point near) const {
+  for (int step = 0; step < 4; ++step) {
+    const Point g = gradient(near);
+    if (!(g.squaredNorm() > 0.25)) return std::nullopt;
+    near -= (*this)(near) / g.squaredNorm() * g;
+  }
+  const Point g = gradient(near - 0.05 * spacing_ * gradient(near));
+  if (g.squaredNorm() > 0.8 && std::abs((*this)(near)) < 0.01 * spacing_) return SurfacePoint<D>{near, g.normalized()};
+  return std::nullopt;
+}
+
+/// Both sides of a narrow gap may cross one cell, of which one point of the surface was found: each has a part of the
+/// body behind it.
+template <class F, class S, int D>
+void FittedField<F, S, D>::find_other_side_of_gap(const Point& centre, Found& found) const {
+  constexpr int parts = samples_per_spacing, total = D == 3 ? parts * parts * parts : parts * parts;
+  const SurfacePoint<D> first = found.surface.front();
+  double nearest = 1.25 * 0.5 * std::sqrt(static_cast<double>(D)) * spacing_ / parts;
+  Point at = first.place;
+  bool second = false;
+  for (int k = 0; k < total; ++k) {
+    const Point x = part(centre, spacing_, parts, k);
+    if ((x - first.place).dot(first.outward) <= 0) continue;
+    const double d = std::abs((*this)(x));
+    if (d < nearest && gradient(x).dot(first.outward) < -0.5) nearest = d, at = x, second = true;
+  }
+  if (!second) return;
+  const auto other = surface_at(at);
+  if (other && (other->place - first.place).dot(first.outward) > 0 && other->outward.dot(first.outward) < -0.5)
+    found.surface.push_back(*other);
+}
+
+template <class F, class S, int D>
+template <class E>
+void FittedField<F, S, D>::sample(const E& execute) {
+  std::array<std::size_t, std::size_t{D}> count{};
+  std::size_t total = 1;
+  for (int c = 0; c < D; ++c) {
+    const double cells = std::ceil((box_.upper[c] - box_.lower[c]) / spacing_);
+    count[static_cast<std::size_t>(c)] = std::max<std::size_t>(1, static_cast<std::size_t>(cells));
+    total *= count[static_cast<std::size_t>(c)];
+  }
+  const std::size_t slabs = count[D - 1], slab = total / slabs;
+  std::vector<std::vector<std::pair<std::uint64_t, Found>>> found(slabs);
+  const double reach = 0.75 * std::sqrt(static_cast<double>(D)) * spacing_;
+  execute(slabs, [&](std::size_t s) {
+    for (std::size_t k = 0; k < slab; ++k) {
+      Cell cell{};
+      std::size_t rest = s * slab + k;
+      Point centre;
+      for (std::size_t c = 0; c < D; ++c, rest /= count[c - 1]) {
+        cell[c] = static_cast<std::int64_t>(rest % count[c]);
+        const auto axis = static_cast<int>(c);
+        centre[axis] = box_.lower[axis] + (static_cast<double>(cell[c]) + 0.5) * spacing_;
+      }
+      if ((*this)(centre) > reach) continue;
+      Found here;
+      sample_cell(centre, here);
+      if (!here.samples.empty()) found[s].emplace_back(along_curve(cell), std::move(here));
+    }
+  });
+  std::vector<std::pair<std::uint64_t, const Found*>> order;
+  for (const auto& part : found)
+    for (const auto& [code, here] : part) order.emplace_back(code, &here);
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [code, here] : order) {
+    samples_.insert(samples_.end(), here->samples.begin(), here->samples.end());
+    surface_.insert(surface_.end(), here->surface.begin(), here->surface.end());
+  }
+  require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower.transpose(), ") to (",
+          box_.upper.transpose(), "); give a shape that is negative inside, and a box around it in metres");
+}
+
+template <class F, class S, int D>
+template <class E>
+void FittedField<F, S, D>::measure(const E& execute) {
+  // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Where faces meet at more they are an edge.
+  constexpr double opposite = -0.5;
+  const double most = most_layers * spacing_, step = spacing_ / 8;
+  execute(surface_.size(), [&](std::size_t k) {
+    SurfacePoint<D>& point = surface_[k];
+    // The largest ball that touches the surface here from within: it grows until it touches elsewhere.
+    for (double r = step; r <= most / 2; r += step) {
+      const Point centre = point.place - r * point.outward;
+      const double depth = -(*this)(centre);
+      if (depth > 0.9 * r && r + step <= most / 2) continue;
+      if (depth > 0.9 * r) {
+        point.least = point.thickness = most;
+        break;
+      }
+      point.least = 1.9 * (r - step);  // no ball is larger than the wall
+      // A little further, so that the difference is that of the other side.
+      const Point other = point.place - (r + step / 2) * point.outward;
+      const Point g = gradient(other);
+      if (g.dot(point.outward) < opposite) point.thickness = std::min(most, r + step / 2 - (*this)(other));
+      break;
+    }
+  });
+  grid_.build(surface_.size(), 1.5 * spacing_, [&](std::size_t k) { return surface_[k].place; });
+}
+
+}  // namespace hmps::inline HMPS_ABI::detail
