@@ -169,7 +169,7 @@ class FittedField {
   }
 
   void sample_cell(const Point& centre, Found& found) const;
-  [[nodiscard]] std::optional<SurfacePoint<D>> surface_at(Point near) const;
+  [[nodiscard]] std::optional<SurfacePoint<D>> surface_at(Point place) const;
   void find_other_side_of_gap(const Point& centre, Found& found) const;
 
   const F& shape_;

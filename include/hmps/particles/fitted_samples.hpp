@@ -55,16 +55,17 @@ void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const 
   }
 }
 
-/// The point of the surface by a place close to it; none at edges, where the shape has no direction outwards.
+/// The point of the surface by a `place` close to it; none at edges, where the shape has no direction outwards.
 template <class F, class S, int D>
-std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point near) const {
+std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point place) const {
   for (int step = 0; step < 4; ++step) {
-    const Point g = gradient(near);
+    const Point g = gradient(place);
     if (!(g.squaredNorm() > 0.25)) return std::nullopt;
-    near -= (*this)(near) / g.squaredNorm() * g;
+    place -= (*this)(place) / g.squaredNorm() * g;
   }
-  const Point g = gradient(near - 0.05 * spacing_ * gradient(near));
-  if (g.squaredNorm() > 0.8 && std::abs((*this)(near)) < 0.01 * spacing_) return SurfacePoint<D>{near, g.normalized()};
+  const Point g = gradient(place - 0.05 * spacing_ * gradient(place));
+  if (g.squaredNorm() > 0.8 && std::abs((*this)(place)) < 0.01 * spacing_)
+    return SurfacePoint<D>{place, g.normalized()};
   return std::nullopt;
 }
 
