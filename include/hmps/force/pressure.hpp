@@ -117,7 +117,8 @@ class Pressure {
     return -way.dot(outward);
   }
   /// Throws `InputError` where the body has fewer than four layers behind a face: its area lies in the two outermost
-  /// ones, and that of the opposite face in the two on the other side.
+  /// ones, and that of the opposite face in the two on the other side. Layers of fitted walls are closer or wider than
+  /// a spacing: to be safe, four that lie closer are refused too.
   template <Bonds B>
   void require_thick(const B& bonds, double largest) const {
     double spacing = 0;  // mean distance of the nearest neighbours
@@ -132,9 +133,9 @@ class Pressure {
       const double size = area_[k].norm();
       if (size < 0.5 * largest) continue;
       const double depth = depth_behind(bonds, particles_[k], area_[k] / size, 3);
-      detail::require(depth > 2.5 * spacing, "hmps: the body reaches only ", depth, " m behind particle ",
+      detail::require(depth > 2.85 * spacing, "hmps: the body reaches only ", depth, " m behind particle ",
                       particles_[k],
-                      " under pressure, fewer than four layers: the areas of the two faces of such a "
+                      " under pressure, about three layers or fewer: the areas of the two faces of such a "
                       "wall fall on the same particles and cancel; load it by PatchPressure, or give it more layers");
     }
   }

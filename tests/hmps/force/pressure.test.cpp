@@ -14,6 +14,7 @@
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/neo_hookean.hpp"
+#include "hmps/particles/fitted.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/support.hpp"
 #include "hmps/shapes/implicit.hpp"
@@ -105,6 +106,22 @@ TEST(Pressure, RefusesWallsWhoseFacesCancel) {
       EXPECT_THROW(make(), hmps::InputError) << layers;  // one layer does not even span space
   }
 }
+// Layers that lie wider apart are not more of them.
+TEST(Pressure, CountsTheLayersOfFittedWalls) {
+  for (const double thickness : {2.0, 2.6, 3.1, 3.45, 4.0, 4.4, 5.0}) {
+    const hmps::Box<double, 3> wall{Vector::Zero(), Vector(10, 11, thickness)};
+    const auto fitted = hmps::fit_particles(wall, hmps::Box<double, 3>{-Vector::Ones(), Vector(12, 12, 6)}, 1.0);
+    const hmps::BondList<double, 3> bonds(hmps::vectors(fitted.positions), {.spacing = 1});
+    const double layers = std::round(thickness);
+    const hmps::ParticleSet top(fitted.size(),
+                                [&](std::size_t i) { return fitted.positions[i][2] > thickness * (1 - 2 / layers); });
+    if (layers >= 4)
+      EXPECT_NO_THROW(hmps::Pressure(bonds, top)) << thickness;
+    else
+      EXPECT_THROW(hmps::Pressure(bonds, top), hmps::InputError) << thickness;
+  }
+}
+
 // What a lattice or edges make of the surface of a thick body is no thin wall.
 TEST(Pressure, TakesAnyThickBody) {
   const auto whole = [](const auto& points) {
