@@ -14,6 +14,7 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/diagnostics/recorded.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
