@@ -111,6 +111,8 @@
 #include "hmps/particles/fitted_cloud.hpp"
 #include "hmps/particles/fitted_field.hpp"
 #include "hmps/particles/fitted_samples.hpp"
+#include "hmps/particles/fitted_settings.hpp"
+#include "hmps/particles/fitted_volumes.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/open_surface_lattice.hpp"
 #include "hmps/particles/patch_pressure.hpp"

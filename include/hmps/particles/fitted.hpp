@@ -17,18 +17,11 @@
 #include "hmps/particles/fitted_cloud.hpp"
 #include "hmps/particles/fitted_field.hpp"
 #include "hmps/particles/fitted_samples.hpp"
-#include "hmps/search/grid.hpp"
+#include "hmps/particles/fitted_settings.hpp"
+#include "hmps/particles/fitted_volumes.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace hmps::inline HMPS_ABI {
-
-/// How `fit_particles` fits.
-struct FitSettings {
-  int least_layers = 2;           ///< across a wall, from 1 to 8; more where they fit
-  double thinnest_spacing = 0.6;  ///< of layers, in spacings, above 0: walls that would need less get no particles
-  double longest_edge = 4;        ///< in spacings: how far such parts may reach beyond the outermost particles
-  int iterations = 200;           ///< of the repulsion, at least 1
-};
 
 /// What the progress hook of `fit_particles` is told after each iteration.
 struct FitProgress {
@@ -56,62 +49,6 @@ struct FittedParticles {
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };
 
-namespace detail {
-
-inline void validate(const FitSettings& s) {
-  require(s.least_layers >= 1 && s.least_layers <= 8, "hmps: the least number of layers to fit is ", s.least_layers,
-          "; give one from 1 to 8 (a wall needs 2 to bend)");
-  require(s.thinnest_spacing > 0 && s.thinnest_spacing <= 1, "hmps: the thinnest spacing of layers to fit is ",
-          s.thinnest_spacing, " spacings; give a share above 0 and up to 1 (0.6 is the default)");
-  require(s.longest_edge > 0 && s.longest_edge <= 100, "hmps: the longest edge without particles is ", s.longest_edge,
-          " spacings; give a positive number up to 100");
-  require(s.iterations >= 1, "hmps: ", s.iterations, " iterations are to fit the particles; make at least one");
-}
-
-/// The volume of each particle: each sample belongs to the nearest one.
-template <class Field, class Cloud, class E>
-[[nodiscard]] std::vector<double> fitted_volumes(const Field& field, const Cloud& cloud, const FitSettings& settings,
-                                                 const E& execute) {
-  const auto& samples = field.samples();
-  const auto& particles = cloud.particles();
-  constexpr Index nobody = std::numeric_limits<Index>::max();
-  const double l0 = field.spacing(), farthest = settings.longest_edge * l0;
-  Grid<double, Field::dimension> grid;
-  grid.build(particles.size(), l0, [&](std::size_t i) { return particles[i].place; });
-  std::vector<Index> owner(samples.size());
-  execute(samples.size(), [&](std::size_t k) {
-    double least = std::numeric_limits<double>::infinity();
-    owner[k] = nobody;
-    for (double radius = std::min(l0, farthest); owner[k] == nobody; radius = std::min(2 * radius, farthest)) {
-      grid.visit(samples[k].place, radius, [&](Index i, double squared) {
-        if (squared < least || (squared == least && i < owner[k])) {
-          least = squared;
-          owner[k] = i;
-        }
-      });
-      if (radius >= farthest) break;
-    }
-  });
-  std::vector<double> volumes(particles.size(), 0.0);
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (owner[k] == nobody) {
-      const Layering here = field.layering(samples[k].place);
-      require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (",
-              samples[k].place.transpose(), "), in a part of the body that is no wall; give a spacing below ", l0,
-              " m, or a longest_edge of some spacings");
-      throw InputError(message("hmps: the body is about ", here.thickness, " m thick at (",
-                               samples[k].place.transpose(), "), too thin for ", here.count, " layers of spacing ", l0,
-                               " m, and more than ", settings.longest_edge,
-                               " spacings from any particle; give a spacing of at most ",
-                               here.thickness / (settings.thinnest_spacing * here.count), " m, or fewer least_layers"));
-    }
-    volumes[owner[k]] += samples[k].volume;
-  }
-  return volumes;
-}
-
-}  // namespace detail
-
 /// Particles that are fitted to the surface of a body, whichever way it lies: those of the outermost layer lie half a
 /// layer inside the surface, walls hold a whole number of layers, and all are about evenly spaced. They lie on no
 /// lattice: bond them with a `BondList`.
@@ -125,8 +62,9 @@ template <class Field, class Cloud, class E>
 /// layers on, and less only where `least_layers` asks for it. Each particle stands for spacing^D whatever n: where
 /// layers are closer, particles of a layer are wider apart, so that a force that takes all volumes as equal is right
 /// in sum. Start: a particle wherever that volume of a layer has been passed along a space-filling curve. Then
-/// `iterations` of a repulsion within 1.6 spacings, with a falling step, within the layers. The volume of a particle is
-/// that of the samples of the body (4^D per spacing^D, more at the surface) that it is the nearest to.
+/// `iterations` of a repulsion within 1.6 spacings, with a falling step, within the layers. Then particles are removed
+/// until each has `least_support`. The volume of a particle is that of the samples of the body (4^D per spacing^D, more
+/// at the surface) that it is the nearest to.
 ///
 /// The result is deterministic and does not depend on the executor. docs/fitted.md says what it is good for.
 ///
@@ -137,8 +75,8 @@ template <class Field, class Cloud, class E>
 /// @param progress  called as progress(FitProgress) after each iteration
 /// Throws `InputError` for a spacing that is not positive, a box that is empty, too large or not finite, bad settings,
 /// a shape that is NaN, with the position, a shape without volume in the box, and a part of the body that is thinner
-/// than `least_layers` layers of `thinnest_spacing` and reaches further than `longest_edge` beyond the particles, with
-/// the place. Thin edges up to that length are left to the nearest particles.
+/// than `least_layers` layers of `thinnest_spacing` and reaches further than `longest_edge` beyond the particles, or
+/// hangs together with none, with the place. Thin edges up to that length are left to the nearest particles.
 template <class F, class S, int D, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
 requires Shape<F, S, D>
 [[nodiscard]] FittedParticles<S, D> fit_particles(const F& shape, const Box<S, D>& box, std::type_identity_t<S> spacing,
@@ -159,6 +97,7 @@ requires Shape<F, S, D>
     progress(FitProgress{k + 1, settings.iterations, move});
   }
   cloud.settle(execute);
+  if (settings.least_support > 0) cloud.remove_weak(settings.least_support);
 
   FittedParticles<S, D> result;
   result.iterations = settings.iterations;

@@ -6,13 +6,17 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "hmps/bonds/bond_settings.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
 #include "hmps/particles/fitted_field.hpp"
+#include "hmps/particles/support.hpp"
 #include "hmps/search/grid.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -96,6 +100,28 @@ class FittedCloud {
       look(p);
       if (!(p.depth > 0)) go_back(p), look(p);
     });
+  }
+
+  /// Removes particles until each has at least the share `least` of the support in a full lattice.
+  void remove_weak(double least) {
+    if (particles_.empty()) return;
+    const double l0 = field_.spacing();
+    std::vector<Point> places;
+    for (const Particle& p : particles_) places.push_back(p.place);
+    const auto points = vectors(std::as_const(places));
+    const SupportSettings settings{.spacing = l0, .threshold = least * full_support<D>(paper_radius_ratio)};
+    const Supports<const double, D, EveryBond> supports(points, settings, EveryBond{});
+    const auto present = without_weak(supports, places.size(), settings.threshold, KeepNone{});
+    double thinnest = std::numeric_limits<double>::infinity();
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      const Layering& here = particles_[i].layers;
+      thinnest = std::min(thinnest, here.thickness / here.count);
+      if (present[i]) particles_[left++] = particles_[i];
+    }
+    require(left > 0, "hmps: none of the ", particles_.size(), " particles that fit into the body at a spacing of ", l0,
+            " m has enough neighbours to hold it; give a spacing of at most ", thinnest, " m");
+    particles_.resize(left);
   }
 
  private:

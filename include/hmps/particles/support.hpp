@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/lattice_cells.hpp"
 #include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
@@ -104,6 +105,42 @@ class Supports {
   NeighbourList list_;
 };
 
+/// Which of `n` particles are left when those of a support below `threshold` are removed until there are none.
+template <class Supports, class Keep>
+[[nodiscard]] std::vector<char> without_weak(const Supports& supports, std::size_t n, double threshold,
+                                             const Keep& keep) {
+  std::vector<char> present(n, 1);
+  const auto is_present = [&](std::size_t j) { return present[j] != 0; };
+  std::vector<std::size_t> suspects(n), next;
+  for (std::size_t i = 0; i < n; ++i) suspects[i] = i;
+  while (!suspects.empty()) {
+    next.clear();
+    for (const std::size_t i : suspects) {
+      if (!present[i] || keep(i) || !(supports(i, is_present) < threshold)) continue;
+      present[i] = 0;
+      supports.for_each(i, [&](std::size_t j) {
+        if (present[j]) next.push_back(j);
+      });
+    }
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    suspects.swap(next);
+  }
+  return present;
+}
+
+/// The support of a particle inside a full lattice, over the squared spacing.
+template <int D>
+[[nodiscard]] double full_support(double radius_ratio) {
+  ShapeTensor<D> shape;
+  for (const auto& cell : cells_within<D>(radius_ratio)) {
+    Vector<double, D> r0;
+    for (int c = 0; c < D; ++c) r0[c] = cell[static_cast<std::size_t>(c)];
+    shape.add(r0, PaperWeight{}(r0.norm(), radius_ratio));
+  }
+  return shape.support();
+}
+
 }  // namespace detail
 
 /// Finds the weakly supported particles of the reference positions `points` (m), in order. Two particles are bonded if
@@ -139,25 +176,7 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
   const detail::Supports<T, D, Bonded> supports(points, settings, bonded);
   const std::size_t n = points.size();
   detail::require_scene(keep, n, "to be kept");
-  std::vector<char> present(n, 1);
-  const auto is_present = [&](std::size_t j) { return present[j] != 0; };
-
-  std::vector<std::size_t> suspects(n);
-  for (std::size_t i = 0; i < n; ++i) suspects[i] = i;
-  std::vector<std::size_t> next;
-  while (!suspects.empty()) {
-    next.clear();
-    for (const std::size_t i : suspects) {
-      if (!present[i] || keep(i) || !(supports(i, is_present) < settings.threshold)) continue;
-      present[i] = 0;
-      supports.for_each(i, [&](std::size_t j) {
-        if (present[j]) next.push_back(j);
-      });
-    }
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    suspects.swap(next);
-  }
+  std::vector<char> present = detail::without_weak(supports, n, settings.threshold, keep);
 
   const auto least = settings.smallest_piece * static_cast<double>(n);
   std::vector<char> seen(n, 0);
@@ -179,7 +198,7 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
       for (const std::size_t i : piece) present[i] = 0;
   }
 
-  ParticleSet left(n, is_present);
+  ParticleSet left(n, [&](std::size_t j) { return present[j] != 0; });
   if (left.empty() && n > 0) {
     const std::string hint = detail::spacing_hint(points, settings.spacing);
     throw InputError(detail::message(
