@@ -19,6 +19,7 @@
 #include "../common/folder_lock.hpp"
 #include "output/checkpoint.hpp"
 #include "output/contacts.hpp"
+#include "output/describe.hpp"
 #include "output/effort.hpp"
 #include "output/fingerprint.hpp"
 #include "output/history.hpp"
@@ -26,6 +27,7 @@
 #include "output/observe.hpp"
 #include "output/pictures.hpp"
 #include "output/progress.hpp"
+#include "output/step_watch.hpp"
 #include "scene/build_scene.hpp"
 #include "simulation/schedule.hpp"
 #include "simulation/simulation.hpp"
@@ -36,7 +38,6 @@ namespace {
 constexpr double sample_interval = 1e-3;      // s, simulated
 constexpr double checkpoint_interval = 0.02;  // s, simulated
 constexpr double limit_interval = 0.02;       // s, simulated
-constexpr double least_limit = 0.05;          // of the step, as a share of that at rest
 constexpr double volume_time = 1.667;         // s, when the paper states det F
 
 template <class S>
@@ -96,9 +97,10 @@ class Run {
                                   .until = options_.until,
                                   .particles = scene_.reference.size(),
                                   .terminal = options_.bar && is_terminal()});
-    describe_step();
-    describe_regions();
-    if (!before) compare_step(0);
+    const bool step_is_given = options_.time_step > 0;
+    StepWatch<S> watch(simulation_, scene_, summary_, step_is_given);
+    std::cerr << describe_step(summary_, simulation_, scene_, step_is_given) << describe_regions(summary_, scene_);
+    if (!before) watch.compare(0);
     double smallest_j = 1;
     try {
       for (;;) {
@@ -112,7 +114,7 @@ class Run {
           snap(history.snapshots, time);
         }
         if (history.frames && frame.due(time, dt)) add_frame(*history.frames, simulation_, scene_);
-        if (limit.due(time, dt)) watch_step(time);
+        if (limit.due(time, dt)) watch.refresh(time);
         if (keep.due(time, dt)) checkpoint(history);
         if (time >= options_.until - dt / 2) break;
         simulation_.step();
@@ -141,63 +143,6 @@ class Run {
     accounted_ = now;
     contact_accounted_ = simulation_.contact_seconds();
   }
-  void describe_step() const {
-    const auto& limit = simulation_.step_limit();
-    const double share = simulation_.time_step() / limit.limit;
-    std::cerr << examples::message(chosen_.name, ": ", summary_.particles_free, " free and ",
-                                   summary_.particles_control, " control particles; step ",
-                                   1e6 * simulation_.time_step(), options_.time_step > 0 ? " us, " : " us at first, ",
-                                   std::round(100 * share), " % of the limit at rest; ", simulation_.limited_by(), " (",
-                                   name(scene_.organ[limit.particle]), ")\n");
-  }
-  /// How many particles each control region has, those of one name together.
-  void describe_regions() const {
-    const auto particles = scene_.particles_of_regions();
-    std::vector<std::pair<std::string, std::size_t>> counts;
-    for (std::size_t r = 0; r < particles.size(); ++r) {
-      const Region& region = scene_.regions[r];
-      const std::string name = region.kind == Region::door ? "H" : region.name;
-      auto at = std::find_if(counts.begin(), counts.end(), [&](const auto& count) { return count.first == name; });
-      if (at == counts.end()) at = counts.insert(counts.end(), {name, 0});
-      at->second += particles[r].size();
-    }
-    std::string text = examples::message(chosen_.name, ": particles of the control regions");
-    const char* separator = ": ";
-    for (const auto& [name, count] : counts)
-      text += examples::message(std::exchange(separator, ", "), name, " ", count);
-    std::cerr << text << '\n';
-  }
-  /// Keeps how near the step is to the limit, and warns where it is beyond.
-  void compare_step(double time) {
-    const auto& now = simulation_.step_limit();
-    const double step = simulation_.time_step(), share = step / now.limit;
-    auto& nearest = summary_.nearest_to_limit;
-    const bool was_stable = !nearest || nearest->share <= 1;
-    if (!nearest || share > nearest->share)
-      nearest = NearestToLimit{share, now.limit, time, now.particle, std::string(name(scene_.organ[now.particle]))};
-    if (was_stable && share > 1)
-      std::cerr << examples::message(chosen_.name, ": at ", time, " s the step of ", 1e6 * step,
-                                     " us is beyond the limit of ", 1e6 * now.limit, " us that particle ", now.particle,
-                                     " (", nearest->organ, ") sets; try a smaller ",
-                                     options_.time_step > 0 ? "--time-step\n" : "--step-share\n");
-  }
-  /// Looks at the limit again, for the steps that were taken, and lets those to come follow it. Throws `StateError`
-  /// where it has all but vanished, since a run would not come to its end.
-  void watch_step(double time) {
-    simulation_.refresh_step_limit();
-    compare_step(time);
-    const auto& now = simulation_.step_limit();
-    if (now.limit < least_limit * summary_.time_step_limit)
-      throw hmps::StateError(
-          examples::message("at ", time, " s the largest stable step has fallen to ", 1e6 * now.limit, " us, from ",
-                            1e6 * summary_.time_step_limit, " us at rest: particle ", now.particle, " of the ",
-                            name(scene_.organ[now.particle]),
-                            " is crushed or torn; try a finer --spacing, or a gentler motion (--data)"));
-    simulation_.follow_step_limit();
-    summary_.time_step_min = std::min(summary_.time_step_min, simulation_.time_step());
-    summary_.time_step_max = std::max(summary_.time_step_max, simulation_.time_step());
-  }
-
   void measure(const Sample& now) {
     fold_.add(now.time, now.tip_angle);
     fold_base_.add(now.time, now.base_angle);

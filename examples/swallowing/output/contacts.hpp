@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "output/lumen.hpp"
 #include "output/observe.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
@@ -34,7 +35,8 @@ inline constexpr std::array turning{Organ::tongue, Organ::pharynx, Organ::larynx
 
 /// The first line of contacts.csv.
 [[nodiscard]] inline std::string contacts_header(const Scene& scene) {
-  std::string header = "time,centre_height,tip_height,leaf_to_larynx,glottis";
+  std::string header =
+      "time,centre_height,tip_height,leaf_to_larynx,glottis,tongue_to_wall,width_upper,width_middle,width_lower";
   for (const Organ organ : turning) header += ",moment_" + column_name(organ);
   for (const ContactPair& pair : scene.contacts)
     for (const char* what : {"area", "normal", "tangential"}) header += ',' + column_name(pair) + '_' + what;
@@ -99,8 +101,13 @@ template <class S>
     const double sign = touch.slave_is_first ? 1 : -1;  // on the leaf, as slave or as wall
     moments[static_cast<std::size_t>(by - turning.begin())] += sign * 1e3 * arm.cross(touch.force)[1];
   });
-  std::vector<double> row{simulation.time(), 1e3 * middle[2], 1e3 * tip[2],
-                          1e3 * detail::leaf_to_larynx(scene, x, middle, tipward), 1e3 * detail::glottis(scene, x)};
+  std::vector<double> row{simulation.time(),
+                          1e3 * middle[2],
+                          1e3 * tip[2],
+                          1e3 * detail::leaf_to_larynx(scene, x, middle, tipward),
+                          1e3 * detail::glottis(scene, x),
+                          1e3 * tongue_to_wall(scene, x)};
+  for (const double height : observed_heights) row.push_back(1e3 * channel_width(scene, x, height));
   row.insert(row.end(), moments.begin(), moments.end());
   for (const Load& load : loads) {
     row.push_back(load.touching / 2 * 1e6 * scene.spacing * scene.spacing);

@@ -97,6 +97,11 @@ struct Line {
       {"least gap between the upper leaf and the larynx, mm",
        [](R r, C) { return whole(r).most("leaf_to_larynx", "%.1f", -1); }},
       {"least gap of the glottis, mm", [](R r, C) { return whole(r).most("glottis", "%.1f", -1); }},
+      {"least gap between tongue and posterior wall, mm",
+       [](R r, C) { return whole(r).most("tongue_to_wall", "%.1f", -1); }},
+      {"least width of the pharynx at 65 mm, mm", [](R r, C) { return whole(r).most("width_upper", "%.1f", -1); }},
+      {"at 40 mm", [](R r, C) { return whole(r).most("width_middle", "%.1f", -1); }},
+      {"at 22 mm", [](R r, C) { return whole(r).most("width_lower", "%.1f", -1); }},
   };
 }
 

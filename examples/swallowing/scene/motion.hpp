@@ -33,17 +33,19 @@ namespace detail {
 }
 }  // namespace detail
 
-/// Region H over its height: rows of plates that turn inwards like doors. Levels of constrictors.csv, linear between.
+/// Region H over its height: rows of plates that turn inwards like doors, in one or two stages. Levels of
+/// constrictors.csv, linear between.
 struct Constrictors {
-  /// z in mm; angle in degrees; start, duration, release, end in s; the share of the angle left at the end
-  Rows<7> levels;
+  /// z in mm; angle in degrees, start and duration in s, of the first stage, then of the second, which adds to it;
+  /// release and end in s; the share of the angle left at the end
+  Rows<10> levels;
   [[nodiscard]] double bottom() const { return levels.rows.front()[0]; }
   [[nodiscard]] double top() const { return levels.rows.back()[0]; }
   /// The angle in degrees at height `z` (mm) and time `t` (s).
   [[nodiscard]] double angle(double z, double t) const {
-    const auto [_, angle, start, duration, release, end, opened] = levels(z);
-    return angle *
-           (detail::smooth((t - start) / duration) - (1 - opened) * detail::smooth((t - release) / (end - release)));
+    const auto [_, angle, start, duration, further, later, lasting, release, end, opened] = levels(z);
+    return (angle * detail::smooth((t - start) / duration) + further * detail::smooth((t - later) / lasting)) *
+           (1 - (1 - opened) * detail::smooth((t - release) / (end - release)));
   }
 };
 
@@ -66,17 +68,19 @@ namespace detail {
 /// Reads constrictors.csv, which shapes the plates, too.
 [[nodiscard]] inline Constrictors read_constrictors(const std::filesystem::path& folder) {
   const auto table = hmps::read_csv((folder / "constrictors.csv").string());
-  constexpr std::array columns{"z", "angle", "start", "duration", "release", "end", "opened"};
+  constexpr std::array columns{"z",     "angle",   "start",   "duration", "further",
+                               "later", "lasting", "release", "end",      "opened"};
   Constrictors constrictors;
   auto& rows = constrictors.levels.rows;
   for (std::size_t r = 0; r < table.rows(); ++r) {
     std::array<double, columns.size()> row;
     for (std::size_t c = 0; c < columns.size(); ++c) row[c] = table(r, table.column(columns[c]));
-    const auto [z, angle, start, duration, release, end, opened] = row;
-    examples::require(
-        (rows.empty() || rows.back()[0] < z) && duration > 0 && start + duration < release && release < end,
-        table.source, " line ", table.lines[r],
-        ": a level needs a z above that of the row before, and start + duration < release < end");
+    const auto [z, _, start, duration, further, later, lasting, release, end, opened] = row;
+    examples::require((rows.empty() || rows.back()[0] < z) && duration > 0 && lasting > 0 &&
+                          std::max(start + duration, later + lasting) < release && release < end,
+                      table.source, " line ", table.lines[r],
+                      ": a level needs a z above that of the row before, positive durations, and both stages to end "
+                      "before release, and release before end");
     rows.push_back(row);
   }
   examples::require(rows.size() > 1, table.source, " needs two levels at least");
