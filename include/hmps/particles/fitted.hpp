@@ -76,7 +76,8 @@ struct FittedParticles {
 /// Throws `InputError` for a spacing that is not positive, a box that is empty, too large or not finite, bad settings,
 /// a shape that is NaN, with the position, a shape without volume in the box, and a part of the body that is thinner
 /// than `least_layers` layers of `thinnest_spacing` and reaches further than `longest_edge` beyond the particles, or
-/// hangs together with none, with the place. Thin edges up to that length are left to the nearest particles.
+/// hangs together with none, with the place; and a body of which no particle has enough support. Thin edges up to that
+/// length are left to the nearest particles.
 template <class F, class S, int D, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
 requires Shape<F, S, D>
 [[nodiscard]] FittedParticles<S, D> fit_particles(const F& shape, const Box<S, D>& box, std::type_identity_t<S> spacing,

@@ -120,7 +120,7 @@ class FittedCloud {
       if (present[i]) particles_[left++] = particles_[i];
     }
     require(left > 0, "hmps: none of the ", particles_.size(), " particles that fit into the body at a spacing of ", l0,
-            " m has enough neighbours to hold it; give a spacing of at most ", thinnest, " m");
+            " m has enough neighbours to hold it; give a spacing of at most ", std::min(thinnest, 0.9 * l0), " m");
     particles_.resize(left);
   }
 
