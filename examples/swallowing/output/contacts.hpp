@@ -50,11 +50,11 @@ namespace detail {
 [[nodiscard]] inline double leaf_to_larynx(const Scene& scene, const std::vector<Eigen::Vector3d>& x,
                                            const Eigen::Vector3d& middle, const Eigen::Vector3d& tipward) {
   double least = std::numeric_limits<double>::infinity();
-  for (const ContactPair& pair : scene.contacts)
-    if (pair.first == Organ::epiglottis && pair.second == Organ::larynx)
-      for (const hmps::Index i : pair.first_slaves)
-        if ((x[i] - middle).dot(tipward) > 0)
-          for (const hmps::Index j : pair.second_slaves) least = std::min(least, (x[i] - x[j]).squaredNorm());
+  for_each_skin(scene, Organ::epiglottis, Organ::larynx, [&](const auto& leaf, const auto& larynx) {
+    for (const hmps::Index i : leaf)
+      if ((x[i] - middle).dot(tipward) > 0)
+        for (const hmps::Index j : larynx) least = std::min(least, (x[i] - x[j]).squaredNorm());
+  });
   return std::sqrt(least) - scene.spacing;
 }
 

@@ -5,13 +5,11 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/particles/fitted_cloud.hpp"

@@ -256,15 +256,17 @@ struct TwoThreads {
 };
 
 // Faces that meet at more than 60 degrees, as where a body that flares is cut, are not the two sides of a wall.
-/// A block, and a leaf of 0.8 spacings beside it.
+/// A block, and a leaf of 0.8 spacings beside it, across a gap.
 TEST(FitParticles, RefusesAPartWithoutParticlesAcrossAGap) {
-  const Box<double, 3> block{V3(0, 0, 0), V3(6, 6, 6)}, leaf{V3(0, 0, 7), V3(6, 6, 7.8)};
-  const std::string text = message_of([&] {
-    (void)fit_particles(hmps::unite(block, leaf), Box<double, 3>{V3(-1, -1, -1), V3(7, 7, 9)}, 1.0);
-  });
-  EXPECT_EQ(text.rfind("hmps: a part of the body at (", 0), 0U) << text;
-  EXPECT_NE(text.find("about 0.8 m thick, holds no particle"), std::string::npos) << text;
-  EXPECT_NE(text.find("give a spacing of at most 0.66"), std::string::npos) << text;
+  for (const double gap : {0.2, 1.0, 2.0}) {
+    const Box<double, 3> block{V3(0, 0, 0), V3(6, 6, 6)}, leaf{V3(0, 0, 6 + gap), V3(6, 6, 6.8 + gap)};
+    const std::string text = message_of([&] {
+      (void)fit_particles(hmps::unite(block, leaf), Box<double, 3>{V3(-1, -1, -1), V3(7, 7, 10)}, 1.0);
+    });
+    EXPECT_EQ(text.rfind("hmps: a part of the body at (", 0), 0U) << gap << ' ' << text;
+    EXPECT_NE(text.find("about 0.8 m thick, holds no particle"), std::string::npos) << gap << ' ' << text;
+    EXPECT_NE(text.find("give a spacing of at most 0.66"), std::string::npos) << gap << ' ' << text;
+  }
 }
 
 /// A cone, in whose tip few particles have room.
