@@ -61,9 +61,14 @@ void require_no_part_alone(const Field& field, const Cloud& cloud, const std::ve
       const std::size_t k = apart[part[at]];
       volume += samples[k].volume;
       const double distance = (samples[k].place - place_of_particle(k)).norm();
-      if (distance < least) least = distance, nearest = k;
+      if (distance < least) {
+        least = distance;
+        nearest = k;
+      }
       grid.visit(samples[k].place, beside, [&](Index i, double) {
-        if (!seen[i]) part.push_back(i), seen[i] = 1;
+        if (seen[i]) return;
+        part.push_back(i);
+        seen[i] = 1;
       });
     }
     const auto& place = samples[nearest].place;
