@@ -200,7 +200,7 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
 
   ParticleSet left(n, [&](std::size_t j) { return present[j] != 0; });
   if (left.empty() && n > 0) {
-    const std::string hint = detail::spacing_hint(points, settings.spacing);
+    const std::string hint = detail::spacing_hint(points, settings.spacing, 0.15);
     throw InputError(detail::message(
         "hmps: supported_particles finds none among ", n, " particles: each is weakly supported, or of a small piece",
         hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));

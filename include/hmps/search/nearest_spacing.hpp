@@ -39,11 +39,12 @@ template <class T, int D>
 
 namespace detail {
 
-/// A hint to append to an error that a wrong `spacing` (m) may have caused; empty if `spacing` agrees with `points`.
+/// A hint to append to an error that a wrong `spacing` (m) may have caused; empty if `points` agree with it within
+/// `tolerance`, a share of it. The nearest neighbours in clouds that are no lattice scatter by a tenth.
 template <class T, int D>
-[[nodiscard]] std::string spacing_hint(const VectorView<T, D>& points, double spacing) {
+[[nodiscard]] std::string spacing_hint(const VectorView<T, D>& points, double spacing, double tolerance = 0.01) {
   const double found = nearest_spacing(points);
-  if (found == 0 || std::abs(found / spacing - 1) < 0.01) return "";
+  if (found == 0 || std::abs(found / spacing - 1) < tolerance) return "";
   return message("; the nearest neighbours lie ", found, " m apart, ", found / spacing, " of the spacing of ", spacing,
                  " m that was given: is the spacing ", found, " m?");
 }

@@ -17,13 +17,13 @@ TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
     for (int c = 0; c < 9; ++c) F(c % 3, c / 3) = (c % 4 == 0) + 0.5 * u(random);
     const hmps::Vector<double, 3> n = hmps::Vector<double, 3>(u(random), u(random), u(random)).normalized();
     double furthest = 0;
-    // The ellipsoid is the image F q of the sphere |q| = l0 / 2.
+    // The ellipsoid is the image F q of the sphere |q| = l0 / 2, of which -n . F q is how far a point reaches.
+    const hmps::Vector<double, 3> reach = -0.5e-3 * (F.transpose() * n);
     for (int a = 0; a < 400; ++a)
       for (int b = 0; b < 800; ++b) {
         const double theta = 3.14159265358979 * (a + 0.5) / 400, phi = 2 * 3.14159265358979 * b / 800;
-        const hmps::Vector<double, 3> q(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                                        std::cos(theta));
-        furthest = std::max(furthest, -n.dot(F * q * 0.5e-3));
+        furthest = std::max(furthest, std::sin(theta) * (std::cos(phi) * reach[0] + std::sin(phi) * reach[1]) +
+                                          std::cos(theta) * reach[2]);
       }
     // The grid's nearest point is 0.005 rad off at most: 1 - cos of it.
     const double support = hmps::slave_support<double, 3>(F, n, 0.5e-3);

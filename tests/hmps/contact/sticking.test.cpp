@@ -56,7 +56,7 @@ TEST(Sticking, HoldsWithoutASlip) {
 
 /// Both bodies turn as one, as fast as they say they do: the force turns with them. A mean of the masters' motion would
 /// see them slide, since its place is more than half a spacing below the slave: by 0.5 spacings here, 500 times the
-/// elastic slip. Left are the third order of the turn of the spring, 1e-9 / 6 of it in each of 1000 steps, and the
+/// elastic slip. Left are the third order of the turn of the spring, 1e-9 / 6 of it in each of 400 steps, and the
 /// second in the velocities, which are those at the end of a step: 2e-4 of the spring's force.
 TEST(Sticking, TurnsWithTheWall) {
   Shoved scene;
@@ -65,7 +65,7 @@ TEST(Sticking, TurnsWithTheWall) {
   const Point axis(0.6, -0.48, 0.64), centre(5 * l0, 3 * l0, 0);
   const hmps::Matrix<double, 3> R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
   hmps::Matrix<double, 3> all = hmps::Matrix<double, 3>::Identity();
-  for (int step = 0; step < 1000; ++step) {
+  for (int step = 0; step < 400; ++step) {
     for (std::size_t i = 0; i < scene.pile.x.size(); ++i) {
       const Point from = scene.pile.x[i] - centre;
       scene.pile.x[i] = centre + R * from;

@@ -87,7 +87,7 @@ TEST(TriangleTree, DistanceIsThatOfAllTriangles) {
 TEST(TriangleTree, WindsOnceAroundTheInside) {
   const auto torus = torus_surface<double>(2, 0.5, 40, 24);
   const hmps::TriangleTree tree(torus), exact(torus, std::numeric_limits<double>::infinity());
-  for (const V& x : random_points(500, 3)) {
+  for (const V& x : random_points(200, 3)) {
     const double whole = hmps::inside(torus, x) ? 1 : 0;
     EXPECT_NEAR(exact.winding_number(x), whole, 1e-12);
     // What is left out is of the third order, 2^-3 of a group's share; far from what would move the limit at 1/2.
@@ -97,13 +97,13 @@ TEST(TriangleTree, WindsOnceAroundTheInside) {
 }
 
 TEST(TriangleTree, ApproximatesBetterWithAccuracy) {
-  auto open = sphere_surface<double>(V(0, 0, 0), 1, 4);
+  auto open = sphere_surface<double>(V(0, 0, 0), 1, 3);
   std::erase_if(open.triangles, [&](const auto& t) { return open.vertices[t[0]][2] > 0.3; });
   const hmps::TriangleTree exact(open, std::numeric_limits<double>::infinity());
   const auto worst = [&](double accuracy) {
     const hmps::TriangleTree tree(open, accuracy);
     double result = 0;
-    for (const V& x : random_points(500, 1.5))
+    for (const V& x : random_points(200, 1.5))
       result = std::max(result, std::abs(tree.winding_number(x) - exact.winding_number(x)));
     return result;
   };
