@@ -147,12 +147,12 @@ class TriangleTree {
   /// surface integral of area vector . g(centre - x + d) with g(r) = r / |r|^3, developed to the second order in d.
   struct Node {
     V lower, upper;            ///< box of the triangles in m
+    std::size_t begin, end;    ///< the triangles
+    std::size_t right = 0;     ///< second child; the first one follows the node; 0 for a leaf
     V centre;                  ///< mean of the triangles' centres by area in m
     V area;                    ///< sum of the triangles' area vectors in m2
     Matrix<double, 3> moment;  ///< sum of area vector (x) (centre of the triangle - centre) in m3
     double squared_radius;     ///< of the triangles' corners about the centre in m2
-    std::size_t begin, end;    ///< the triangles
-    std::size_t right = 0;     ///< second child; the first one follows the node; 0 for a leaf
 
     std::array<double, 10> cubic;  ///< sum of n_i d_j d_k in m4: xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
     V traces;                      ///< sum of n (d . d) + 2 d (n . d) in m4
