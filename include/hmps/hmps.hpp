@@ -123,6 +123,7 @@
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/search/grid.hpp"
 #include "hmps/search/nearest_spacing.hpp"
+#include "hmps/search/resolution.hpp"
 #include "hmps/shapes/combine.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/isosurface.hpp"

@@ -21,6 +21,7 @@
 #include "hmps/lanes/places.hpp"
 #include "hmps/lanes/volume_shares.hpp"
 #include "hmps/search/fixed_radius.hpp"
+#include "hmps/search/resolution.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -241,21 +242,8 @@ class BondList : public Blocks<K, D> {
                                                         const BondSettings& settings) {
     detail::validate(settings);
     require_finite(reference, "the reference position");
-    require_resolved(reference, settings.spacing);
+    detail::require_resolved(reference, settings.spacing);
     return detail::CloudOrder<D>(reference, settings.spacing).order;
-  }
-  /// Throws `InputError` where the scalar of the positions is too coarse, so far from the origin, for strains of a
-  /// hundredth: small motions are rounded away.
-  template <class T>
-  static void require_resolved(const VectorView<T, D>& reference, double spacing) {
-    using S = typename VectorView<T, D>::Scalar;
-    const double furthest = 0.01 * spacing / static_cast<double>(std::numeric_limits<S>::epsilon());
-    for (std::size_t i = 0; i < reference.size(); ++i)
-      for (int c = 0; c < D; ++c)
-        detail::require(std::abs(static_cast<double>(reference(i, c))) <= furthest, "hmps: particle ", i, " lies at ",
-                        reference(i, c),
-                        " m, where its scalar type resolves no more than a hundredth of the spacing of ", spacing,
-                        " m; take positions in double, or an origin near the body");
   }
   [[nodiscard]] static std::int32_t first_of(std::size_t neighbour, std::size_t lane) {
     return static_cast<std::int32_t>(neighbour) - static_cast<std::int32_t>(lane);

@@ -20,6 +20,7 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/search/nearest_spacing.hpp"
+#include "hmps/search/resolution.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -157,7 +158,9 @@ class LatticeBonds : public Blocks<K, D> {
     require_finite(reference, "the reference position");
     std::array<int, std::size_t{D}> axes{};
     std::copy_n(settings.axes.begin(), D, axes.begin());
-    return {reference, settings.spacing, axes};
+    detail::LatticeCells<D> cells(reference, settings.spacing, axes);
+    detail::require_resolved(reference, settings.spacing);
+    return cells;
   }
 
   template <class T, class Bonded, class Weight>

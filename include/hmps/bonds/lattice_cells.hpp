@@ -16,6 +16,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/nearest_spacing.hpp"
+#include "hmps/search/resolution.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -96,6 +97,8 @@ struct LatticeCells {
   /// Advice for particles that are not on the lattice of `spacing`.
   template <class T>
   [[nodiscard]] static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
+    constexpr double coarse = 0.3;  // by less than that, rounding moves the nearest neighbours
+    if (spacing_hint(reference, spacing, coarse).empty()) require_resolved(reference, spacing, 1e-3);
     const std::string hint = spacing_hint(reference, spacing);
     return hint.empty() ? "; use BondList for a cloud that is no lattice"
                         : hint + " For a cloud that is no lattice use BondList";

@@ -69,7 +69,8 @@ void for_each_cell(std::string_view line, Use&& use) {
 /// Parses comma-separated numbers: a header line of distinct column names, then one row per line with one finite number
 /// per column. Ignores blank lines, text after `#` and blanks around cells; lines may end in CR LF. `source` names the
 /// text in messages. Throws `InputError` with source, line and column at the first cell that is not a finite number,
-/// and for rows with too few or too many cells, empty or repeated column names, and text without a header.
+/// and for rows with too few or too many cells, empty or repeated column names, columns that something else than commas
+/// separates, and text without a header.
 [[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
   Table table;
   table.source = std::move(source);
@@ -89,6 +90,9 @@ void for_each_cell(std::string_view line, Use&& use) {
           fail("the column '", detail::printable(name), "' is named twice; name each column once");
         table.names.emplace_back(name);
       });
+      if (table.names.size() == 1 && line.find_first_of(";\t") != std::string_view::npos)
+        fail("'", detail::printable(line), "' is the name of one column; separate columns by commas, with points in the "
+             "numbers");
       continue;
     }
     std::size_t cell_number = 0;

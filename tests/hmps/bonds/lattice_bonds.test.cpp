@@ -129,6 +129,24 @@ TEST(LatticeBonds, RefuseWhatIsOffTheLattice) {
   EXPECT_TRUE(has(error, "particle 5") && has(error, "may span 1e6")) << error;
 }
 
+// Rounding is not a reason to leave the lattice either.
+TEST(LatticeBonds, RefusePositionsThatTheirScalarDoesNotResolve) {
+  const double l0 = scenes::Scene<3>::spacing;
+  const auto made = [&](float origin, double spacing) {
+    std::vector<hmps::Vector<float, 3>> X;
+    for (const auto& x : scenes::box<3>({4, 4, 4}))
+      X.push_back(x.cast<float>() + hmps::Vector<float, 3>::Constant(origin));
+    return error_of([&] { (void)hmps::LatticeBonds<float, 3>(hmps::vectors(X), {.spacing = spacing}); });
+  };
+  EXPECT_EQ(made(1, l0), "nothing was thrown");
+  for (const float origin : {30.F, 500.F}) {
+    const std::string error = made(origin, l0);
+    EXPECT_TRUE(has(error, "take positions in double, or an origin near the body")) << origin << ": " << error;
+  }
+  const std::string error = made(1, 1e-3 * l0);
+  EXPECT_TRUE(has(error, "is the spacing")) << error;
+}
+
 // A wrong spacing is not a reason to leave the lattice: the right one is named.
 TEST(LatticeBonds, NameTheSpacingThatParticlesSeemToHave) {
   const auto points = scenes::box<3>({6, 5, 4});

@@ -41,7 +41,8 @@ TEST(Csv, NamesSourceLineAndColumnOfWhatIsWrong) {
   expect_contains(message("t,x\n0,\n"), "line 2: '' in column 'x'");
   expect_contains(message("t,x\n0,1,2\n"), "line 2: the row has 3 cells but the header names 2 columns");
   expect_contains(message("t,x\n0\n"), "line 2: the row has 1 cells");
-  expect_contains(message("t;x\n0;1\n"), "line 2: '0;1' in column 't;x'");
+  expect_contains(message("t;x\n0,5;1\n"), "line 1: 't;x' is the name of one column; separate columns by commas");
+  expect_contains(message("t\tx\n0\t1\n"), "line 1: 't\\x09x' is the name of one column");
   expect_contains(message("# only\nt,x,t\n"), "line 2: the column 't' is named twice");
   expect_contains(message("t,,x\n"), "line 1: column 2 has no name");
   expect_contains(message(""), "trace.csv is empty");
