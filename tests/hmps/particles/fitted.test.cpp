@@ -315,7 +315,7 @@ TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
   EXPECT_EQ(a.largest_distance, b.largest_distance);
 }
 
-// The distance to a mesh takes microseconds. Every point of every cell that the surface cuts would take 3400 a particle.
+// The distance to a mesh takes microseconds. Every point of every cell that the surface cuts would take 3200 a particle.
 TEST(FitParticles, AsksTheShapeSeldom) {
   const Plate plate{2.9};
   std::size_t asked = 0;
