@@ -38,6 +38,12 @@ inline constexpr double fresh_noise = 0.1;
   return discriminant >= 0 && denominator > 0 ? 4 / denominator : std::numeric_limits<double>::infinity();
 }
 
+/// The eigenvector of the largest eigenvalue of a symmetric matrix.
+template <class S>
+[[nodiscard]] Vector<S, 3> largest_mode(const Matrix<S, 3>& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Matrix<S, 3>>(symmetric).eigenvectors().col(2);
+}
+
 /// The search of `stable_step`: conjugate gradients on the Rayleigh quotient of dt^2 K + 2 dt C, with dt updated in
 /// each iteration.
 template <class Force, class T, int D, class Rho, class E>
@@ -143,8 +149,7 @@ class StepSearch {
     }
     if (!scene_.normalise(descent_, 1.0)) return false;
     probe(descent_);
-    const Eigen::SelfAdjointEigenSolver<Matrix<double, 3>> solver(projected(dt));
-    const Vector<double, 3> weight = solver.eigenvectors().col(2);
+    const Vector<double, 3> weight = largest_mode<double>(projected(dt));
     scene_.blend(previous_, have_previous_ ? weight[2] : 0.0, descent_, weight[1]);
     scene_.blend(best_, weight[0], previous_, 1.0);
     have_previous_ = true;

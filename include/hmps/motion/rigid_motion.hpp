@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <type_traits>
 #include <utility>
 
 #include "hmps/core/abi.hpp"
@@ -44,11 +45,14 @@ struct Turn {
   Vector<double, 3> pivot;
   Vector<double, 3> axis;
   Track angle;
-  [[nodiscard]] Pose<double, 3> operator()(double t) const {
-    const double length = axis.norm();
-    detail::require(detail::is_finite(length) && length > 0, "hmps: a turn is about the axis (", axis.transpose(),
+  /// A template, so that only programs that call it compile it.
+  template <class T = double>
+  [[nodiscard]] Pose<T, 3> operator()(std::type_identity_t<T> t) const {
+    const Vector<T, 3> about = axis;
+    const T length = about.norm();
+    detail::require(detail::is_finite(length) && length > 0, "hmps: a turn is about the axis (", about.transpose(),
                     "); give a direction of finite length");
-    return {rotation<double>(Vector<double, 3>(angle.value(t) * axis.normalized())), pivot, Vector<double, 3>::Zero()};
+    return {rotation<T>(Vector<T, 3>(angle.value(t) * about.normalized())), pivot, Vector<T, 3>::Zero()};
   }
 };
 

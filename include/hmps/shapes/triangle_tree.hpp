@@ -24,12 +24,12 @@ namespace hmps::inline HMPS_ABI {
 namespace detail {
 
 /// The point of the edges of a triangle that is nearest to `x`.
-[[nodiscard]] inline Vector<double, 3> nearest_on_edges(const std::array<Vector<double, 3>, 3>& corners,
-                                                        const Vector<double, 3>& x) {
-  Vector<double, 3> nearest = corners[0];
+template <class S>
+[[nodiscard]] Vector<S, 3> nearest_on_edges(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
+  Vector<S, 3> nearest = corners[0];
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector<double, 3>&from = corners[k], &to = corners[(k + 1) % 3];
-    const Vector<double, 3> at = from + nearest_on_segment<double, 3>(from, to, x) * (to - from);
+    const Vector<S, 3>&from = corners[k], &to = corners[(k + 1) % 3];
+    const Vector<S, 3> at = from + nearest_on_segment<S, 3>(from, to, x) * (to - from);
     if ((at - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = at;
   }
   return nearest;
@@ -37,25 +37,25 @@ namespace detail {
 
 /// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5). Corners may lie in one place
 /// or in one line.
-[[nodiscard]] inline Vector<double, 3> nearest_on_triangle(const std::array<Vector<double, 3>, 3>& corners,
-                                                           const Vector<double, 3>& x) {
-  using V = Vector<double, 3>;
+template <class S>
+[[nodiscard]] Vector<S, 3> nearest_on_triangle(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
+  using V = Vector<S, 3>;
   const auto& [a, b, c] = corners;
   const V ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
-  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx), d6 = ac.dot(cx);
+  const S d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx), d6 = ac.dot(cx);
   if (d1 <= 0 && d2 <= 0) return a;
   if (d3 >= 0 && d4 <= d3) return b;
   if (d6 >= 0 && d5 <= d6) return c;
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  const S vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   // An edge of no length would give 0 / 0; its point lies on the other two.
   if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return a + d1 / (d1 - d3) * ab;
   if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return a + d2 / (d2 - d6) * ac;
-  const double bc = (d4 - d3) + (d5 - d6);  // the square of that edge
+  const S bc = (d4 - d3) + (d5 - d6);  // the square of that edge
   if (va <= 0 && d4 >= d3 && d5 >= d6 && bc > 0) return b + (d4 - d3) / bc * (c - b);
-  const double sum = va + vb + vc;  // the square of twice the area
+  const S sum = va + vb + vc;  // the square of twice the area
   const V within = a + vb / sum * ab + vc / sum * ac;
   // With edges of length L its rounding is about 1e-16 L^3 |x - a|; where it is lost in that, an edge may be nearer.
-  const double size = ab.squaredNorm() + ac.squaredNorm();
+  const S size = ab.squaredNorm() + ac.squaredNorm();
   if (sum * sum > 1e-26 * size * size * size * (size + ax.squaredNorm())) return within;
   const V edge = nearest_on_edges(corners, x);
   const bool lies_within = va > 0 && vb > 0 && vc > 0;
@@ -68,21 +68,22 @@ namespace detail {
 /// number of triangles. The winding number (Jacobson et al. 2013) is 1 inside a closed surface, 0 outside, and changes
 /// gradually across the holes of an open one. Groups of triangles far from the point are replaced by a dipole and its
 /// first two moments (Barill et al. 2018), beyond `accuracy` radii of the group. Stores a copy of the triangles in
-/// double. Thread-safe.
-class TriangleTree {
-  using V = Vector<double, 3>;
+/// `S`. Thread-safe.
+template <class S>
+class BasicTriangleTree {
+  using V = Vector<S, 3>;
 
  public:
   /// @param accuracy  above 1; at infinity nothing is approximated
   /// Throws `InputError` for a surface without triangles, vertices that are not finite, indices out of range.
-  template <class S>
-  explicit TriangleTree(const SurfaceMesh<S>& mesh, double accuracy = 2) : accuracy_(accuracy) {
+  template <class T>
+  explicit BasicTriangleTree(const SurfaceMesh<T>& mesh, double accuracy = 2) : accuracy_(static_cast<S>(accuracy)) {
     detail::require(!detail::is_nan(accuracy) && accuracy > 1, "hmps: the accuracy of a tree of triangles is ",
                     accuracy, "; give a number above 1 (2 is the default)");
     detail::require_triangles(mesh);
     for (const auto& t : mesh.triangles)
-      triangles_.push_back({mesh.vertices[t[0]].template cast<double>(), mesh.vertices[t[1]].template cast<double>(),
-                            mesh.vertices[t[2]].template cast<double>()});
+      triangles_.push_back({mesh.vertices[t[0]].template cast<S>(), mesh.vertices[t[1]].template cast<S>(),
+                            mesh.vertices[t[2]].template cast<S>()});
     std::vector<std::size_t> order(triangles_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     build(order, 0, order.size());
@@ -93,11 +94,11 @@ class TriangleTree {
   }
 
   /// The winding number of the surface around `x` (m): the sum of solid angles over 4 pi. Discontinuous on the surface.
-  [[nodiscard]] double winding_number(const V& x) const {
-    double angle = 0;
+  [[nodiscard]] S winding_number(const V& x) const {
+    S angle = 0;
     visit([&](const Node& node) {
       const V to = node.centre - x;
-      const double squared = to.squaredNorm();
+      const S squared = to.squaredNorm();
       if (squared > accuracy_ * accuracy_ * node.squared_radius) {
         angle += node.far_angle(to, squared);
         return false;
@@ -107,14 +108,14 @@ class TriangleTree {
           angle += detail::solid_angle(triangles_[k][0] - x, triangles_[k][1] - x, triangles_[k][2] - x);
       return true;
     });
-    return angle / (4 * std::numbers::pi);
+    return angle / (4 * std::numbers::pi_v<S>);
   }
 
   /// The distance in m from `x` (m) to the nearest triangle, exact up to rounding.
-  [[nodiscard]] double distance(const V& x) const {
-    double least = std::numeric_limits<double>::infinity();
+  [[nodiscard]] S distance(const V& x) const {
+    S least = std::numeric_limits<S>::infinity();
     // Visits the nearer child first and tests the other one again later.
-    std::array<std::pair<double, std::size_t>, depth> waiting;
+    std::array<std::pair<S, std::size_t>, depth> waiting;
     std::size_t count = 0;
     waiting[count++] = {nodes_[0].squared_distance(x), 0};
     while (count > 0) {
@@ -146,30 +147,30 @@ class TriangleTree {
   /// The group of triangles of a node. Its solid angle at a distance is that of its moments about the centre: the
   /// surface integral of area vector . g(centre - x + d) with g(r) = r / |r|^3, developed to the second order in d.
   struct Node {
-    V lower, upper;            ///< box of the triangles in m
-    std::size_t begin, end;    ///< the triangles
-    std::size_t right = 0;     ///< second child; the first one follows the node; 0 for a leaf
-    V centre;                  ///< mean of the triangles' centres by area in m
-    V area;                    ///< sum of the triangles' area vectors in m2
-    Matrix<double, 3> moment;  ///< sum of area vector (x) (centre of the triangle - centre) in m3
-    double squared_radius;     ///< of the triangles' corners about the centre in m2
+    V lower, upper;          ///< box of the triangles in m
+    std::size_t begin, end;  ///< the triangles
+    std::size_t right = 0;   ///< second child; the first one follows the node; 0 for a leaf
+    V centre;                ///< mean of the triangles' centres by area in m
+    V area;                  ///< sum of the triangles' area vectors in m2
+    Matrix<S, 3> moment;     ///< sum of area vector (x) (centre of the triangle - centre) in m3
+    S squared_radius;        ///< of the triangles' corners about the centre in m2
 
-    std::array<double, 10> cubic;  ///< sum of n_i d_j d_k in m4: xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
-    V traces;                      ///< sum of n (d . d) + 2 d (n . d) in m4
+    std::array<S, 10> cubic;  ///< sum of n_i d_j d_k in m4: xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
+    V traces;                 ///< sum of n (d . d) + 2 d (n . d) in m4
 
     /// The solid angle seen from a point from which the centre lies at `r`.
-    [[nodiscard]] double far_angle(const V& r, double squared) const {
-      const double x = r[0], y = r[1], z = r[2];
+    [[nodiscard]] S far_angle(const V& r, S squared) const {
+      const S x = r[0], y = r[1], z = r[2];
       const auto& c = cubic;
-      const double third = x * (x * (c[0] * x + c[3] * y + c[4] * z) + y * (c[5] * y + c[9] * z) + c[7] * z * z) +
-                           y * (y * (c[1] * y + c[6] * z) + c[8] * z * z) + c[2] * z * z * z;
-      const double cubed = squared * std::sqrt(squared);
+      const S third = x * (x * (c[0] * x + c[3] * y + c[4] * z) + y * (c[5] * y + c[9] * z) + c[7] * z * z) +
+                      y * (y * (c[1] * y + c[6] * z) + c[8] * z * z) + c[2] * z * z * z;
+      const S cubed = squared * std::sqrt(squared);
       return (r.dot(area) + moment.trace() - 3 * r.dot(moment * r) / squared +
-              (7.5 * third / squared - 1.5 * r.dot(traces)) / squared) /
+              (S(7.5) * third / squared - S(1.5) * r.dot(traces)) / squared) /
              cubed;
     }
-    [[nodiscard]] double squared_distance(const V& x) const {
-      return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).squaredNorm();
+    [[nodiscard]] S squared_distance(const V& x) const {
+      return (lower - x).cwiseMax(x - upper).cwiseMax(S(0)).squaredNorm();
     }
   };
 
@@ -197,7 +198,7 @@ class TriangleTree {
     node.end = end;
     node.lower = node.upper = triangles_[order[begin]][0];
     V weighted = V::Zero();
-    double total = 0;
+    S total = 0;
     node.area.setZero();
     for (std::size_t k = begin; k < end; ++k) {
       const auto& t = triangles_[order[k]];
@@ -213,8 +214,7 @@ class TriangleTree {
     node.centre = total > 0 ? V(weighted / total) : V((node.lower + node.upper) / 2);
     node.moment.setZero();
     node.traces.setZero();
-    std::array<Matrix<double, 3>, 3> second{Matrix<double, 3>::Zero(), Matrix<double, 3>::Zero(),
-                                            Matrix<double, 3>::Zero()};
+    std::array<Matrix<S, 3>, 3> second{Matrix<S, 3>::Zero(), Matrix<S, 3>::Zero(), Matrix<S, 3>::Zero()};
     node.squared_radius = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const auto& t = triangles_[order[k]];
@@ -222,7 +222,7 @@ class TriangleTree {
       const V sum = 3 * (centre_of(t) - node.centre);
       node.moment += area * sum.transpose() / 3;
       // The mean of d d^T over a triangle, by its corners.
-      Matrix<double, 3> mean = sum * sum.transpose() / 12;
+      Matrix<S, 3> mean = sum * sum.transpose() / 12;
       for (const V& corner : t) mean += (corner - node.centre) * (corner - node.centre).transpose() / 12;
       node.traces += area * mean.trace() + 2 * mean * area;
       for (std::size_t i = 0; i < 3; ++i) second[i] += area[static_cast<Eigen::Index>(i)] * mean;
@@ -263,9 +263,12 @@ class TriangleTree {
     build(order, middle, end);
   }
 
-  double accuracy_;
+  S accuracy_;
   Corners triangles_;
   std::vector<Node> nodes_;
 };
+
+/// In double, as all that takes a tree has it. (A template, so that only programs that search a tree compile one.)
+using TriangleTree = BasicTriangleTree<double>;
 
 }  // namespace hmps::inline HMPS_ABI
