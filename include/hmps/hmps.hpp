@@ -129,6 +129,7 @@
 #include "hmps/shapes/isosurface.hpp"
 #include "hmps/shapes/mesh_distance.hpp"
 #include "hmps/shapes/obj_file.hpp"
+#include "hmps/shapes/pseudonormals.hpp"
 #include "hmps/shapes/redistanced.hpp"
 #include "hmps/shapes/stl_file.hpp"
 #include "hmps/shapes/surface_edges.hpp"

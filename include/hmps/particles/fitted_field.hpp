@@ -71,7 +71,8 @@ class FittedField {
   using Point = Vector<double, D>;
   static constexpr int dimension = D;
   static constexpr int samples_per_spacing = 4;
-  static constexpr int most_layers = 8;  // across thin walls; what is thicker is bulk
+  static constexpr int most_layers = 8;     // across thin walls; what is thicker is bulk
+  static constexpr double steepest = 1.25;  // what the gradient of the distance may be before a cut cell is missed
 
   FittedField(const F& shape, const Box<S, D>& box, double spacing, int least_layers)
       : shape_(shape),
@@ -168,6 +169,7 @@ class FittedField {
     return x;
   }
 
+  [[nodiscard]] Sample<D> cut_cell(const Point& x, double d) const;
   void sample_cell(const Point& centre, Found& found) const;
   [[nodiscard]] std::optional<SurfacePoint<D>> surface_at(Point place) const;
   void find_other_side_of_gap(const Point& centre, Found& found) const;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <type_traits>
-#include <utility>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
@@ -13,24 +12,33 @@
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/isosurface.hpp"
+#include "hmps/shapes/pseudonormals.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
 /// The result of `redistanced`. Copies share the surface.
-template <class F, class S>
-struct Redistanced {
-  F shape;
-  Box<S, 3> box;  ///< m; its faces cut
-  std::shared_ptr<const TriangleTree> surface;
+template <class S>
+class Redistanced {
+ public:
+  explicit Redistanced(const SurfaceMesh<S>& isosurface) : surface_(std::make_shared<const Surface>(isosurface)) {}
 
-  /// Signed distance in m of `x` (m), negative inside; NaN where the shape is.
+  /// Signed distance in m of `x` (m), negative inside; NaN where `x` is not finite.
   [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
-    const S level = static_cast<S>(shape(x));
-    if (detail::is_nan(level)) return level;
-    const S sign = std::max(level, box(x));
-    return std::copysign(static_cast<S>(surface->distance(x.template cast<double>())), sign);
+    if (!detail::all_finite(x)) return std::numeric_limits<S>::quiet_NaN();
+    const Vector<double, 3> place = x.template cast<double>();
+    const auto nearest = surface_->tree.nearest(place);
+    const Vector<double, 3> normal = surface_->normals(nearest.triangle, nearest.point.part);
+    return static_cast<S>(std::copysign(nearest.distance, (place - nearest.point.place).dot(normal)));
   }
+
+ private:
+  struct Surface {
+    TriangleTree tree;
+    detail::Pseudonormals<double> normals;
+    explicit Surface(const SurfaceMesh<S>& mesh) : tree(mesh), normals(mesh) {}
+  };
+  std::shared_ptr<const Surface> surface_;
 };
 
 /// The part of any shape that lies in a box, as one that is the signed distance: inside united parts too, where the
@@ -40,18 +48,18 @@ struct Redistanced {
 ///     const auto body = redistanced(shape, box, l0 / 4);
 ///     const auto fitted = fit_particles(body, box, l0);
 ///
-/// The sign is that of the shape, the magnitude the distance to its `isosurface`, whose limits and errors this has. It
-/// costs a search in a tree of triangles for each place, beside the shape itself.
+/// It is the distance to the shape's `isosurface`, inside and outside as well, whose limits and errors it has: parts of
+/// the shape thinner than a cell may be lost. The shape is evaluated only while this is made; afterwards each place
+/// costs a search in a tree of triangles.
 ///
 /// @param shape  negative inside
 /// @param box    in m; its faces cut
 /// @param cell   width of the cells of the isosurface in m
 template <class F, class S, Executor E = Serial>
 requires Shape<F, S, 3>
-[[nodiscard]] Redistanced<F, S> redistanced(F shape, const Box<S, 3>& box, std::type_identity_t<S> cell,
-                                            const E& execute = {}) {
-  auto surface = std::make_shared<const TriangleTree>(isosurface(shape, box, cell, execute));
-  return {std::move(shape), box, std::move(surface)};
+[[nodiscard]] Redistanced<S> redistanced(const F& shape, const Box<S, 3>& box, std::type_identity_t<S> cell,
+                                         const E& execute = {}) {
+  return Redistanced<S>(isosurface(shape, box, cell, execute));
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -23,14 +23,24 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
+/// A point of a triangle, and what it belongs to.
+template <class S>
+struct TrianglePoint {
+  Vector<S, 3> place;
+  /// A corner (0 to 2), the inside of an edge (3 to 5, which start from corner 0 to 2), or the inside of the face (6).
+  std::size_t part;
+};
+
 /// The point of the edges of a triangle that is nearest to `x`.
 template <class S>
-[[nodiscard]] Vector<S, 3> nearest_on_edges(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
-  Vector<S, 3> nearest = corners[0];
+[[nodiscard]] TrianglePoint<S> nearest_on_edges(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
+  TrianglePoint<S> nearest{corners[0], 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector<S, 3>&from = corners[k], &to = corners[(k + 1) % 3];
-    const Vector<S, 3> at = from + nearest_on_segment<S, 3>(from, to, x) * (to - from);
-    if ((at - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = at;
+    const S share = nearest_on_segment<S, 3>(from, to, x);
+    const Vector<S, 3> at = from + share * (to - from);
+    if ((at - x).squaredNorm() < (nearest.place - x).squaredNorm())
+      nearest = {at, share <= S(0) ? k : share >= S(1) ? (k + 1) % 3 : k + 3};
   }
   return nearest;
 }
@@ -38,28 +48,29 @@ template <class S>
 /// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5). Corners may lie in one place
 /// or in one line.
 template <class S>
-[[nodiscard]] Vector<S, 3> nearest_on_triangle(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
+[[nodiscard]] TrianglePoint<S> nearest_on_triangle(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
   using V = Vector<S, 3>;
   const auto& [a, b, c] = corners;
   const V ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
   const S d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx), d6 = ac.dot(cx);
-  if (d1 <= 0 && d2 <= 0) return a;
-  if (d3 >= 0 && d4 <= d3) return b;
-  if (d6 >= 0 && d5 <= d6) return c;
+  if (d1 <= 0 && d2 <= 0) return {a, 0};
+  if (d3 >= 0 && d4 <= d3) return {b, 1};
+  if (d6 >= 0 && d5 <= d6) return {c, 2};
   const S vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   // An edge of no length would give 0 / 0; its point lies on the other two.
-  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return a + d1 / (d1 - d3) * ab;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return a + d2 / (d2 - d6) * ac;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return {a + d1 / (d1 - d3) * ab, 3};
+  if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return {a + d2 / (d2 - d6) * ac, 5};
   const S bc = (d4 - d3) + (d5 - d6);  // the square of that edge
-  if (va <= 0 && d4 >= d3 && d5 >= d6 && bc > 0) return b + (d4 - d3) / bc * (c - b);
+  if (va <= 0 && d4 >= d3 && d5 >= d6 && bc > 0) return {b + (d4 - d3) / bc * (c - b), 4};
   const S sum = va + vb + vc;  // the square of twice the area
   const V within = a + vb / sum * ab + vc / sum * ac;
   // With edges of length L its rounding is about 1e-16 L^3 |x - a|; where it is lost in that, an edge may be nearer.
   const S size = ab.squaredNorm() + ac.squaredNorm();
-  if (sum * sum > 1e-26 * size * size * size * (size + ax.squaredNorm())) return within;
-  const V edge = nearest_on_edges(corners, x);
+  if (sum * sum > 1e-26 * size * size * size * (size + ax.squaredNorm())) return {within, 6};
+  const TrianglePoint<S> edge = nearest_on_edges(corners, x);
   const bool lies_within = va > 0 && vb > 0 && vc > 0;
-  return lies_within && (within - x).squaredNorm() < (edge - x).squaredNorm() ? within : edge;
+  if (lies_within && (within - x).squaredNorm() < (edge.place - x).squaredNorm()) return {within, 6};
+  return edge;
 }
 
 }  // namespace detail
@@ -84,12 +95,12 @@ class BasicTriangleTree {
     for (const auto& t : mesh.triangles)
       triangles_.push_back({mesh.vertices[t[0]].template cast<S>(), mesh.vertices[t[1]].template cast<S>(),
                             mesh.vertices[t[2]].template cast<S>()});
-    std::vector<std::size_t> order(triangles_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    build(order, 0, order.size());
+    order_.resize(triangles_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    build(0, order_.size());
     Corners sorted;
     sorted.reserve(triangles_.size());
-    for (const std::size_t k : order) sorted.push_back(triangles_[k]);
+    for (const std::size_t k : order_) sorted.push_back(triangles_[k]);
     triangles_ = std::move(sorted);
   }
 
@@ -112,19 +123,40 @@ class BasicTriangleTree {
   }
 
   /// The distance in m from `x` (m) to the nearest triangle, exact up to rounding.
-  [[nodiscard]] S distance(const V& x) const {
-    S least = std::numeric_limits<S>::infinity();
+  [[nodiscard]] S distance(const V& x) const { return std::sqrt(search(x).squared); }
+
+  /// The point of the surface that is nearest to `x` (m).
+  struct Nearest {
+    S distance;                      ///< in m
+    std::size_t triangle;            ///< of the mesh
+    detail::TrianglePoint<S> point;  ///< on it
+  };
+  [[nodiscard]] Nearest nearest(const V& x) const {
+    const Found found = search(x);
+    return {std::sqrt(found.squared), order_[found.at], detail::nearest_on_triangle(triangles_[found.at], x)};
+  }
+
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
+
+ private:
+  struct Found {
+    S squared;  // distance in m2
+    std::size_t at;
+  };
+  [[nodiscard]] Found search(const V& x) const {
+    Found least{std::numeric_limits<S>::infinity(), 0};
     // Visits the nearer child first and tests the other one again later.
     std::array<std::pair<S, std::size_t>, depth> waiting;
     std::size_t count = 0;
     waiting[count++] = {nodes_[0].squared_distance(x), 0};
     while (count > 0) {
       const auto [bound, at] = waiting[--count];
-      if (bound >= least) continue;
+      if (bound >= least.squared) continue;
       const Node& node = nodes_[at];
       if (node.right == 0) {
         for (std::size_t k = node.begin; k < node.end; ++k)
-          least = std::min(least, (detail::nearest_on_triangle(triangles_[k], x) - x).squaredNorm());
+          if (const S d = (detail::nearest_on_triangle(triangles_[k], x).place - x).squaredNorm(); d < least.squared)
+            least = {d, k};
         continue;
       }
       std::pair left(nodes_[at + 1].squared_distance(x), at + 1);
@@ -133,12 +165,9 @@ class BasicTriangleTree {
       waiting[count++] = left;
       waiting[count++] = right;
     }
-    return std::sqrt(least);
+    return least;
   }
 
-  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
-
- private:
   using Corners = std::vector<std::array<V, 3>>;
   /// Halving 2^32 triangles gives 32 levels, each of which leaves one node on the stack.
   static constexpr std::size_t depth = 72;
@@ -191,17 +220,17 @@ class BasicTriangleTree {
 
   [[nodiscard]] static V centre_of(const std::array<V, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
 
-  /// A node without children for the triangles `order[begin, end)`.
-  [[nodiscard]] Node summed(const std::vector<std::size_t>& order, std::size_t begin, std::size_t end) const {
+  /// A node without children for the triangles `order_[begin, end)`.
+  [[nodiscard]] Node summed(std::size_t begin, std::size_t end) const {
     Node node{};
     node.begin = begin;
     node.end = end;
-    node.lower = node.upper = triangles_[order[begin]][0];
+    node.lower = node.upper = triangles_[order_[begin]][0];
     V weighted = V::Zero();
     S total = 0;
     node.area.setZero();
     for (std::size_t k = begin; k < end; ++k) {
-      const auto& t = triangles_[order[k]];
+      const auto& t = triangles_[order_[k]];
       for (const V& corner : t) {
         node.lower = node.lower.cwiseMin(corner);
         node.upper = node.upper.cwiseMax(corner);
@@ -217,7 +246,7 @@ class BasicTriangleTree {
     std::array<Matrix<S, 3>, 3> second{Matrix<S, 3>::Zero(), Matrix<S, 3>::Zero(), Matrix<S, 3>::Zero()};
     node.squared_radius = 0;
     for (std::size_t k = begin; k < end; ++k) {
-      const auto& t = triangles_[order[k]];
+      const auto& t = triangles_[order_[k]];
       const V area = area_vector(t[0], t[1], t[2]);
       const V sum = 3 * (centre_of(t) - node.centre);
       node.moment += area * sum.transpose() / 3;
@@ -243,28 +272,29 @@ class BasicTriangleTree {
     return node;
   }
 
-  void build(std::vector<std::size_t>& order, std::size_t begin, std::size_t end) {
-    const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = order.begin() + static_cast<std::ptrdiff_t>(end);
+  void build(std::size_t begin, std::size_t end) {
+    const auto first = order_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = order_.begin() + static_cast<std::ptrdiff_t>(end);
     // The split must not depend on the standard library, since sums depend on it.
     std::sort(first, last);
     const std::size_t at = nodes_.size();
-    nodes_.push_back(summed(order, begin, end));
+    nodes_.push_back(summed(begin, end));
     if (end - begin <= leaf) return;
     Eigen::Index axis = 0;
     (nodes_[at].upper - nodes_[at].lower).maxCoeff(&axis);
     const std::size_t middle = (begin + end) / 2;
     std::nth_element(
-        first, order.begin() + static_cast<std::ptrdiff_t>(middle), last, [&](std::size_t a, std::size_t b) {
+        first, order_.begin() + static_cast<std::ptrdiff_t>(middle), last, [&](std::size_t a, std::size_t b) {
           return std::pair(centre_of(triangles_[a])[axis], a) < std::pair(centre_of(triangles_[b])[axis], b);
         });
-    build(order, begin, middle);
+    build(begin, middle);
     nodes_[at].right = nodes_.size();
-    build(order, middle, end);
+    build(middle, end);
   }
 
   S accuracy_;
   Corners triangles_;
+  std::vector<std::size_t> order_;  // the triangles of the mesh
   std::vector<Node> nodes_;
 };
 

@@ -315,6 +315,19 @@ TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
   EXPECT_EQ(a.largest_distance, b.largest_distance);
 }
 
+// The distance to a mesh takes microseconds. Every point of every cell that the surface cuts would take 3200 a particle.
+TEST(FitParticles, AsksTheShapeSeldom) {
+  const Plate plate{2.9};
+  std::size_t asked = 0;
+  const auto counted = [&](const V3& x) {
+    ++asked;
+    return plate(x);
+  };
+  const auto fitted = fit_particles(counted, Box<double, 3>{V3(-4, -1, -1), V3(5, 10, 12)}, 1.0,
+                                    {.iterations = 1, .least_support = 0});
+  EXPECT_LT(asked, 2000 * fitted.size());
+}
+
 TEST(FitParticles, TellsItsProgress) {
   const hmps::Ball<double, 3> ball{.radius = 2};
   int calls = 0;

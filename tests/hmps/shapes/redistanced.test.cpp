@@ -43,6 +43,40 @@ TEST(Redistanced, KnowsTheInsideOfUnitedParts) {
   EXPECT_NEAR(distance(V(0, 0, 0.7)), 0.2, 1e-4);
 }
 
+// Two plates at a right angle, and a fin of a third of a cell between cells: its sign was that of the shape, and its
+// distance that to the surface of the plates, so that it jumped by up to its length.
+TEST(Redistanced, DoesNotJumpAtFinsThinnerThanACell) {
+  const auto plates = hmps::unite(Box{V(-1, -1, -0.2), V(1, 1, 0.2)}, Box{V(-0.2, -1, -0.2), V(0.2, 1, 1)});
+  const auto shape = hmps::unite(plates, Box{V(-1.2, -0.01, 0.2), V(1.2, 0.01, 1.2)});
+  const auto distance = redistanced(shape, around, 0.06);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1.4, 1.4), step(-0.03, 0.03);
+  for (int k = 0; k < 20000; ++k) {
+    const V x(uniform(random), 0.1 * uniform(random), uniform(random));
+    const V y = x + V(step(random), step(random), step(random));
+    EXPECT_LE(std::abs(distance(x) - distance(y)), (x - y).norm() * (1 + 1e-9)) << x.transpose();
+  }
+}
+
+TEST(Redistanced, IsInsideWhereItsSurfaceWindsAround) {
+  const auto shape =
+      hmps::subtract(hmps::unite(Box{V(-1, -1, -0.3), V(1, 1, 0.2)}, Box{V(-0.3, -0.9, 0), V(0.3, 1, 1)}),
+                     hmps::Ball<double, 3>{V(0.2, 0.1, 0.3), 0.45});
+  const double cell = 0.11;
+  const auto distance = redistanced(shape, around, cell);
+  const hmps::TriangleTree exact(isosurface(shape, around, cell), std::numeric_limits<double>::infinity());
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(-1.2, 1.2);
+  int tried = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const V x(uniform(random), uniform(random), uniform(random));
+    if (exact.distance(x) > cell) continue;  // close to corners and edges
+    EXPECT_EQ(distance(x) < 0, exact.winding_number(x) > 0.5) << x.transpose();
+    ++tried;
+  }
+  EXPECT_GT(tried, 800);
+}
+
 TEST(Redistanced, EndsAtTheFacesOfTheBox) {
   const hmps::Ball<double, 3> ball{V::Zero(), 1};
   const auto upper = redistanced(ball, Box{V(-1.5, -1.5, 0), V::Constant(1.5)}, 0.05);

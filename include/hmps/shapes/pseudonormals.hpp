@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "hmps/core/abi.hpp"
+#include "hmps/core/types.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
+
+namespace hmps::inline HMPS_ABI::detail {
+
+/// The normals of the faces, edges and corners of a surface by which a point lies inside or outside: of an edge the sum
+/// of those of its two faces, of a corner their sum weighted by the angles of its faces (Baerentzen and Aanaes 2005).
+/// With p the nearest point of the surface, (x - p) . normal is positive where x is outside. That is exact for a
+/// closed, oriented surface that does not meet itself, and so for an `isosurface`. Normals are not of unit length; they
+/// are zero where all faces around have no area.
+template <class S>
+class Pseudonormals {
+  using V = Vector<S, 3>;
+
+ public:
+  template <class T>
+  explicit Pseudonormals(const SurfaceMesh<T>& mesh) : corners_(mesh.triangles), at_(mesh.vertices.size(), V::Zero()) {
+    faces_.reserve(corners_.size());
+    for (const auto& t : corners_) {
+      std::array<V, 3> x;
+      for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.vertices[t[k]].template cast<S>();
+      const V area = (x[1] - x[0]).cross(x[2] - x[0]);
+      const S size = area.norm();
+      faces_.push_back(size > S(0) ? V(area / size) : V(V::Zero()));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const V next = x[(k + 1) % 3] - x[k], last = x[(k + 2) % 3] - x[k];
+        at_[t[k]] += std::atan2(next.cross(last).norm(), next.dot(last)) * faces_.back();
+      }
+    }
+    find_neighbours();
+  }
+
+  /// The normal of a `TrianglePoint::part` of a triangle.
+  [[nodiscard]] V operator()(std::size_t triangle, std::size_t part) const {
+    if (part < 3) return at_[corners_[triangle][part]];
+    if (part < 6) return faces_[triangle] + faces_[beside_[triangle][part - 3]];
+    return faces_[triangle];
+  }
+
+ private:
+  /// Pairs the triangles that share an edge. An edge of one triangle alone counts as that of two.
+  void find_neighbours() {
+    std::vector<std::tuple<Index, Index, std::size_t, std::size_t>> edges;
+    edges.reserve(3 * corners_.size());
+    beside_.resize(corners_.size());
+    for (std::size_t t = 0; t < corners_.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(corners_[t][k], corners_[t][(k + 1) % 3]);
+        edges.emplace_back(low, high, t, k);
+        beside_[t][k] = t;
+      }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+      const auto& [low, high, t, k] = edges[e];
+      const auto& [next_low, next_high, u, l] = edges[e + 1];
+      if (low != next_low || high != next_high) continue;
+      beside_[t][k] = u;
+      beside_[u][l] = t;
+    }
+  }
+
+  std::vector<std::array<Index, 3>> corners_;
+  std::vector<V> faces_, at_;                       // unit normals of triangles; normals at vertices
+  std::vector<std::array<std::size_t, 3>> beside_;  // the triangle across each edge
+};
+
+}  // namespace hmps::inline HMPS_ABI::detail
