@@ -128,6 +128,7 @@
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/isosurface.hpp"
 #include "hmps/shapes/mesh_distance.hpp"
+#include "hmps/shapes/nearest_on_triangle.hpp"
 #include "hmps/shapes/obj_file.hpp"
 #include "hmps/shapes/pseudonormals.hpp"
 #include "hmps/shapes/redistanced.hpp"
