@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -26,7 +27,7 @@ namespace hmps::inline HMPS_ABI {
 /// gradually across the holes of an open one. Groups of triangles far from the point are replaced by a dipole and its
 /// first two moments (Barill et al. 2018), beyond `accuracy` radii of the group. Stores a copy of the triangles in
 /// `S`. Thread-safe.
-template <class S>
+template <std::same_as<double> S>
 class BasicTriangleTree {
   using V = Vector<S, 3>;
 
@@ -244,7 +245,7 @@ class BasicTriangleTree {
   std::vector<Node> nodes_;
 };
 
-/// In double, as all that takes a tree has it. (A template, so that only programs that search a tree compile one.)
+/// In double only: a template so that programs that search no tree do not compile one.
 using TriangleTree = BasicTriangleTree<double>;
 
 }  // namespace hmps::inline HMPS_ABI
