@@ -144,6 +144,8 @@ class FittedField {
 
  private:
   using Cell = std::array<std::int64_t, std::size_t{D}>;
+  /// Of the parts of a cell.
+  using Distances = std::array<double, samples_per_spacing * samples_per_spacing*(D == 3 ? samples_per_spacing : 1)>;
   struct Found {
     std::vector<Sample<D>> samples;
     std::vector<SurfacePoint<D>> surface;
@@ -172,7 +174,7 @@ class FittedField {
   [[nodiscard]] Sample<D> cut_cell(const Point& x, double d) const;
   void sample_cell(const Point& centre, Found& found) const;
   [[nodiscard]] std::optional<SurfacePoint<D>> surface_at(Point place) const;
-  void find_other_side_of_gap(const Point& centre, Found& found) const;
+  void find_other_side_of_gap(const Point& centre, const Distances& distances, Found& found) const;
 
   const F& shape_;
   Box<double, D> box_;

@@ -50,15 +50,16 @@ Sample<D> FittedField<F, S, D>::cut_cell(const Point& x, double d) const {
 
 template <class F, class S, int D>
 void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const {
-  constexpr int parts = samples_per_spacing, total = D == 3 ? parts * parts * parts : parts * parts;
+  constexpr int parts = samples_per_spacing;
   const double edge = spacing_ / parts, volume = std::pow(edge, D);
   const double half_diagonal = 0.5 * std::sqrt(static_cast<double>(D)) * edge;
   double nearest = std::numeric_limits<double>::infinity();
   bool inside = false;
   Point at = centre;
-  for (int k = 0; k < total; ++k) {
-    const Point x = part(centre, spacing_, parts, k);
-    const double d = (*this)(x);
+  Distances distances;
+  for (std::size_t k = 0; k < distances.size(); ++k) {
+    const Point x = part(centre, spacing_, parts, static_cast<int>(k));
+    const double d = distances[k] = (*this)(x);
     inside = inside || d < 0;
     if (std::abs(d) < nearest) nearest = std::abs(d), at = x;
     if (d < -steepest * half_diagonal) {
@@ -72,7 +73,7 @@ void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const 
   if (!inside || nearest > steepest * half_diagonal) return;
   if (const auto point = surface_at(at)) {
     found.surface.push_back(*point);
-    find_other_side_of_gap(centre, found);
+    find_other_side_of_gap(centre, distances, found);
   }
 }
 
@@ -91,18 +92,18 @@ std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point place) con
 }
 
 /// Both sides of a narrow gap may cross one cell, of which one point of the surface was found: each has a part of the
-/// body behind it.
+/// body behind it. `distances` are those of the parts of the cell.
 template <class F, class S, int D>
-void FittedField<F, S, D>::find_other_side_of_gap(const Point& centre, Found& found) const {
-  constexpr int parts = samples_per_spacing, total = D == 3 ? parts * parts * parts : parts * parts;
+void FittedField<F, S, D>::find_other_side_of_gap(const Point& centre, const Distances& distances, Found& found) const {
+  constexpr int parts = samples_per_spacing;
   const SurfacePoint<D> first = found.surface.front();
   double nearest = steepest * 0.5 * std::sqrt(static_cast<double>(D)) * spacing_ / parts;
   Point at = first.place;
   bool second = false;
-  for (int k = 0; k < total; ++k) {
-    const Point x = part(centre, spacing_, parts, k);
+  for (std::size_t k = 0; k < distances.size(); ++k) {
+    const Point x = part(centre, spacing_, parts, static_cast<int>(k));
     if ((x - first.place).dot(first.outward) <= 0) continue;
-    const double d = std::abs((*this)(x));
+    const double d = std::abs(distances[k]);
     if (d < nearest && gradient(x).dot(first.outward) < -0.5) nearest = d, at = x, second = true;
   }
   if (!second) return;
