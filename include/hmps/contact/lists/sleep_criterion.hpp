@@ -133,12 +133,13 @@ typename SleepCriterion<S, D, Kernel>::Verdict SleepCriterion<S, D, Kernel>::jud
                                                                                    const Slave& slave,
                                                                                    std::span<const Index> masters,
                                                                                    Index* kept) {
-  auto [verdict, density] = survey(source, slave.number, masters, kept);
+  Survey found = survey(source, slave.number, masters, kept);
+  Verdict& verdict = found.verdict;
   const S l0 = source.normal_density.spacing();
   const auto rests = [&](S touching) {
     verdict.rest = 1;
     for (std::size_t q = 0; q < levels; ++q, verdict.rest *= S(0.5)) {
-      const S centres = source.normal_density.inverse(density[q]).value;
+      const S centres = source.normal_density.inverse(found.density[q]).value;
       if (!(surface_distance(S(1), centres, l0) < slave.radius * touching)) return true;
     }
     verdict.rest = 0;

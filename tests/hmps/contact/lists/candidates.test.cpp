@@ -227,6 +227,35 @@ TEST(Candidates, StartAnewAfterWhatWasNotFinite) {
   EXPECT_EQ(lists.rebuilds(), 1U);
 }
 
+TEST(Candidates, TakeInAnOrganThatIsAddedLater) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3), other(1e-3, 0.5e-3);
+  const auto update = [&](Lists& each) { each.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}); };
+  const auto a = lists.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper});
+  update(lists);
+  EXPECT_TRUE(listed(lists).empty());
+  lists.add_pair(a, lists.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower}), {});
+  update(lists);
+  declare(other, pile);
+  update(other);
+  EXPECT_EQ(listed(lists), listed(other));
+}
+
+TEST(Candidates, CountChecksThatCameLate) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  const auto check = [&] { lists.check(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}); };
+  check();
+  check();
+  EXPECT_EQ(lists.late(), 0U);
+  pile.F[pile.block.bottom[5]] *= 1.3;
+  check();
+  EXPECT_EQ(lists.late(), 1U);
+  check();
+  EXPECT_EQ(lists.late(), 1U);
+}
+
 TEST(Candidates, BuildTheBroadPhaseListAnewOnceItIsUsedUpOrRefreshed) {
   Pile pile(3);
   Lists lists(1e-3, 0.5e-3);

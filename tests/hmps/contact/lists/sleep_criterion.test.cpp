@@ -115,9 +115,9 @@ TEST(SleepCriterion, FollowsTheDrift) {
 
 TEST(SleepCriterion, KeepsAllMastersThatMayComeWithinReach) {
   Wall wall(2.5);
-  for (Index j : wall.masters) wall.x[j][2] += 0.1;  // towards the slave, an eighth of it per call
+  for (Index j : wall.masters) wall.x[j][2] += 0.2;  // towards the slave, an eighth of it per call
   wall.measure();
-  for (Index j : wall.masters) wall.x[j][2] += 0.1;
+  for (Index j : wall.masters) wall.x[j][2] += 0.2;
   wall.measure();
   const auto verdict = wall.judge();
   ASSERT_EQ(wall.kept.size(), verdict.kept);
@@ -125,7 +125,7 @@ TEST(SleepCriterion, KeepsAllMastersThatMayComeWithinReach) {
   const std::set<Index> kept(wall.kept.begin(), wall.kept.end());
   std::size_t met = 0, left = 0;
   for (const Index j : wall.masters) {
-    const double now = (wall.x[j] - wall.x[0]).norm(), then = (wall.x[j] + Point(0, 0, 0.1) - wall.x[0]).norm();
+    const double now = (wall.x[j] - wall.x[0]).norm(), then = (wall.x[j] + Point(0, 0, 0.2) - wall.x[0]).norm();
     if (std::min(now, then) < radius) {
       EXPECT_TRUE(kept.count(j)) << j;
       met += now > radius ? 1 : 0;
@@ -170,6 +170,20 @@ TEST(SleepCriterion, BoundsStretchesAlongTheNormal) {
   EXPECT_FALSE(rests(Point(1, 1, 1.8), same)) << "and towards it";
   EXPECT_TRUE(rests(same, Point(1 / 1.5, 1, 1))) << "a wall that is narrow";
   EXPECT_FALSE(rests(same, Point(1, 1, 1.5))) << "and that is thick";
+}
+
+TEST(SleepCriterion, AllowsForATurnOfTheNormal) {
+  for (const bool of_wall : {false, true}) {
+    // Long beside the wall, or narrow and therefore wide where it were turned.
+    Wall wall(1.2);
+    wall.x[0][0] = 0;  // where the normal is upright even if the wall is rough
+    for (std::size_t i = 0; i < wall.F.size(); ++i)
+      if ((i > 0) == of_wall) wall.F[i](0, 0) = of_wall ? 1 / 2.5 : 2.5;
+    for (int k = 0; k < 8; ++k) wall.measure();
+    EXPECT_EQ(wall.judge().rest, 0) << of_wall;
+    for (int k = 0; k < 3; ++k) (void)wall.judge();
+    EXPECT_GT(wall.judge().rest, 0) << of_wall << ": once the wall was seen not to turn";
+  }
 }
 
 TEST(SleepCriterion, IsLateIfATrustedWallHasTurnedFurther) {

@@ -35,10 +35,16 @@ struct Rows {
   hmps::detail::SleepingRows<double, 3, Ball> sleeping;
   bool is_late = false;
 
-  explicit Rows(double gap, double speed = 0, bool backwards = false) : pile(gap), loops{.backwards = backwards} {
-    const auto a = organs.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper}, l0);
-    organs.add_pair(
-        a, organs.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower}, l0), {});
+  explicit Rows(double gap, double speed = 0, bool backwards = false, bool has_one_slave = false)
+      : pile(gap), loops{.backwards = backwards} {
+    const List one{pile.block.bottom[5]}, none;
+    const auto a = organs.add_organ(
+        {.name = "plate", .slaves = has_one_slave ? none : pile.plate.top, .masters = pile.plate.upper}, l0);
+    const auto b = organs.add_organ({.name = "block",
+                                     .slaves = has_one_slave ? one : pile.block.bottom,
+                                     .masters = has_one_slave ? none : pile.block.lower},
+                                    l0);
+    organs.add_pair(a, b, {.roles = has_one_slave ? hmps::Roles::only_second_is_slave : hmps::Roles::both});
     organs.number_particles();
     particles.resize(organs.particle().size());
     measure(true);
@@ -128,6 +134,27 @@ TEST(SleepingRows, WakeByWhatTheirParticlesDeviate) {
     }
   }
   EXPECT_EQ(shares, (std::set<double>{0.27, 0.55})) << "rows wake at a quarter and at half of the bound";
+}
+
+TEST(SleepingRows, WakeByEachOfTheirParticles) {
+  std::size_t woken = 0;
+  for (double gap = 1.05; gap < 1.6; gap += 0.05) {
+    const Rows rows(gap, 0, false, true);  // of one row
+    const auto wakes = [&](Index i) {
+      Rows now = rows;
+      EXPECT_TRUE(now.watch(1, i, 0.55 * bound));
+      return now.awake();
+    };
+    std::vector<std::set<Index>> by(rows.pile.x.size());
+    for (const Index i : rows.organs.particle()) by[i] = wakes(i);
+    const Index slave = rows.pile.block.bottom[5];
+    for (const Index j : rows.pile.plate.upper)
+      if (by[slave].count(slave) && (rows.pile.x[slave] - rows.pile.x[j]).norm() < Ball::radius * l0) {
+        EXPECT_TRUE(by[j].count(slave)) << gap << ": " << slave << " by " << j;
+        woken += rows.awake().count(slave) ? 0 : 1;
+      }
+  }
+  EXPECT_GT(woken, 0U);
 }
 
 TEST(SleepingRows, WakeOneAfterAnother) {
