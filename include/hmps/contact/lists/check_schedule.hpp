@@ -10,8 +10,8 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// The calls between two checks of the lists.
 struct CheckInterval {
-  std::size_t since;  // the latest check
-  std::size_t until;  // the next check, counted from the latest one if that is just now
+  std::size_t since;  // the latest check until now; in a check, since the previous one
+  std::size_t until;  // the next check, counted from the latest; in a check, from now
   /// What changed by `c` since the latest check may change by `ratio()` times `c` until the next.
   template <class S>
   [[nodiscard]] S ratio() const {
@@ -40,7 +40,7 @@ class CheckSchedule {
     // Sharper lists are worth about a tenth of the cost of evaluating them.
     interval_ = std::clamp<std::size_t>(8 * cost / (active + 1), shortest, longest);
   }
-  /// Shortens that interval so that who moves by `speed` in each call moves by `most` at the most, or to `shortest`.
+  /// Shortens that interval so that what moves by `speed` in each call moves by `most` at the most, or to `shortest`.
   template <class S>
   void limit_travel(S speed, S most) {
     if (static_cast<S>(interval_) * speed > most)
@@ -49,7 +49,6 @@ class CheckSchedule {
   /// Ends a check: the interval begins.
   void start_interval() { age_ = woken_work_ = 0; }
 
-  /// Between checks `until` counts from the latest; in a check, from now.
   [[nodiscard]] CheckInterval interval() const { return {age_, interval_}; }
 
  private:

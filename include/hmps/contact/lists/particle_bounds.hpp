@@ -24,8 +24,8 @@ namespace hmps::inline HMPS_ABI::detail {
 ///
 /// A particle is expected to drift on as it moved between the two latest checks. The bounds say how far it may deviate
 /// from that and how much it may deform. They are a multiple of what it did since the previous check, because motion
-/// seldom changes faster, but not less than a least amount. Who relies on them compares: `deviation_squared` tells how
-/// far a particle has deviated by now, and `measure` whether one has deformed further.
+/// seldom changes faster, but not less than a least amount. Whoever relies on them compares: `deviation_squared` tells
+/// how far a particle has deviated by now, and `measure` whether one has deformed further.
 template <class S, int D>
 class ParticleBounds {
  public:
