@@ -2,8 +2,6 @@
 #pragma once
 
 #include "hmps/contact/contact_forces.hpp"
-#include "hmps/contact/lists/candidates_check.hpp"
-#include "hmps/contact/lists/candidates_sleep.hpp"
 #include "hmps/contact/metaball_contact.hpp"
 #include "hmps/core/abi.hpp"
 

@@ -28,9 +28,7 @@ class BroadPhase {
     Index slave;  // of the numbered particles
     std::uint32_t side;
     Index slot;
-    Index begin, kept;  // of its candidates, and the end of those within reach before the next check
-    S compression;
-    S rest;  // by which share of its bound each of its particles may move before it has to wake; zero: awake
+    Index begin;  // of its candidates
   };
   /// What the list is made of; all but `organs` per numbered particle.
   struct Source {
@@ -45,7 +43,6 @@ class BroadPhase {
   void build(const Source& source, const AnyExecutor& execute);
 
   /// One more at the end, where the last one's candidates end.
-  [[nodiscard]] std::vector<Row>& rows() { return rows_; }
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   /// Per candidate, the number of its master: ascending in each row.
   [[nodiscard]] const std::vector<Index>& masters() const { return masters_; }
@@ -94,7 +91,7 @@ void BroadPhase<S, D>::build(const Source& source, const AnyExecutor& execute) {
     if (const Part part = choose(source, s); !part.slaves.empty()) search(source, s, part, execute);
   require(masters_.size() < no_particle, "hmps: ", masters_.size(),
           " candidates for contact are more than a 32-bit index can number; name fewer slaves and masters");
-  rows_.push_back({0, 0, 0, static_cast<Index>(masters_.size()), 0, 0, 0});
+  rows_.push_back({0, 0, 0, static_cast<Index>(masters_.size())});
   list_rows_of_particles(source.place.size());
 }
 
@@ -168,8 +165,8 @@ void BroadPhase<S, D>::append(std::size_t side, const Part& part, const std::vec
     for (const Near& nearby : list) ++count[nearby.slave + 1];
   for (std::size_t k = 0; k < slaves; ++k) {
     if (count[k + 1] > 0)
-      rows_.push_back({part.slaves[k], static_cast<std::uint32_t>(side), part.slots[k],
-                       static_cast<Index>(first + count[k]), 0, 0, 0});
+      rows_.push_back(
+          {part.slaves[k], static_cast<std::uint32_t>(side), part.slots[k], static_cast<Index>(first + count[k])});
     count[k + 1] += count[k];
   }
   masters_.resize(first + count.back());

@@ -2,66 +2,32 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "hmps/contact/lists/active_rows.hpp"
 #include "hmps/contact/lists/broad_phase.hpp"
+#include "hmps/contact/lists/check_schedule.hpp"
+#include "hmps/contact/lists/organ_motion.hpp"
 #include "hmps/contact/lists/organ_pairs.hpp"
+#include "hmps/contact/lists/particle_bounds.hpp"
+#include "hmps/contact/lists/sleeping_rows.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/organ.hpp"
-#include "hmps/contact/state_checks.hpp"
 #include "hmps/core/abi.hpp"
-#include "hmps/core/error.hpp"
-#include "hmps/core/math.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/core/view.hpp"
-#include "hmps/lanes/lane_math.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Deformation gradients of undeformed or rigid particles.
-template <class S, int D>
-struct Undeformed {
-  [[nodiscard]] Matrix<S, D> operator[](std::size_t) const { return Matrix<S, D>::Identity(); }
-};
-
-/// The deformation gradients of the particles `particle(l)`, one in each lane.
-template <class S, int D, class Gradients, class Particle>
-[[nodiscard]] HMPS_INLINE Matrix<Lanes<S>, D> gather_gradients(const Gradients& F, Particle&& particle) {
-  Matrix<Lanes<S>, D> lanes;
-  for (int l = 0; l < Lanes<S>::width; ++l) {
-    const Matrix<S, D> own = F[particle(static_cast<std::size_t>(l))].template cast<S>();
-    for (int c = 0; c < D * D; ++c) lanes(c % D, c / D).lane[l] = own(c % D, c / D);
-  }
-  return lanes;
-}
-
-/// An upper bound of the largest singular value of F, exact in 2D and for equal stretches: mean plus
-/// sqrt(D - 1) standard deviations of the eigenvalues of F^T F (Wolkowicz and Styan 1980).
-template <class T, int D>
-[[nodiscard]] HMPS_INLINE T stretch_bound(const Matrix<T, D>& F) {
-  using std::sqrt;
-  Matrix<T, D> C = right_cauchy_green<T, D>(F);
-  const T mean = trace<T, D>(C) * T(1. / D);
-  for (int c = 0; c < D; ++c) C(c, c) = C(c, c) - mean;
-  return sqrt(mean + sqrt(contract<T, D>(C, C) * T((D - 1.) / D)));
-}
-
-/// The lists of slaves and masters that may touch. The broad-phase list holds the pairs within reach plus `margin`, in
-/// rows of one slave each. A grid search builds it whenever organs have moved, or a reach has grown, by that much. Most
-/// of its rows sleep: a check extrapolates the motion of the particles and bounds how far those of a row may deviate
-/// from it before the slave could touch. Every later call measures the deviation of each particle and wakes the rows
-/// for which it is too large; the active rows make up the Verlet list that is evaluated. The next check is due when the
-/// rows woken since the last one have cost as much as a check, and after `longest_interval` calls (fewer if much is
-/// active or moves fast), because deformation gradients change too.
+/// The lists of slaves and masters that may touch. The broad-phase list (`BroadPhase`) holds the pairs within reach
+/// plus `margin`, in rows of one slave each. It is built anew when organs have moved, or a reach has grown, by that
+/// much (`OrganMotion`). Most of its rows sleep (`SleepingRows`): a check extrapolates the motion of the particles
+/// (`ParticleBounds`) and judges which slaves cannot touch before the next check. Every later call wakes the rows of
+/// particles that deviate from it; the rows that are awake make up the Verlet list that is evaluated (`ActiveRows`).
+/// When the next check is due is up to `CheckSchedule`.
 ///
 /// All orders follow the particles' indices, so sums over contacts do not depend on when lists were built.
 ///
@@ -71,16 +37,14 @@ template <class S, int D, Metaball Kernel>
 class Candidates {
  public:
   using Point = Vector<S, D>;
-  static constexpr Index none = no_particle;
 
   /// `spacing` and `margin` in m.
   Candidates(S spacing, S margin)
-      : normal_density_(spacing), radius_(static_cast<S>(Kernel::radius) * spacing), margin_(margin) {}
+      : normal_density_(spacing), margin_(margin), particles_(spacing, static_cast<S>(Kernel::radius) * spacing) {}
 
   std::size_t add_organ(const Organ& organ) {
     const std::size_t added = organs_.add_organ(organ, static_cast<double>(normal_density_.spacing()));
-    parts_.clear();
-    built_ = false;
+    numbered_ = built_ = false;
     return added;
   }
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
@@ -98,16 +62,10 @@ class Candidates {
   [[nodiscard]] std::size_t late() const { return late_; }
   void refresh() { built_ = false; }
 
-  /// The position of particle `i` of the view `x`, in m from the origin of the lists. If `S` is narrower than the
-  /// scalar type of `x`, it is rounded after the subtraction, so that the precision does not depend on the distance
-  /// from zero.
+  /// The position of particle `i` of the view `x`, as `ParticleBounds::place_of`.
   template <class X>
   [[nodiscard]] HMPS_INLINE Point place_of(const X& x, std::size_t i) const {
-    using Wide = typename X::Scalar;
-    if constexpr (sizeof(Wide) > sizeof(S))
-      return (x[i] - origin_.template cast<Wide>()).template cast<S>();
-    else
-      return x[i].template cast<S>();
+    return particles_.place_of(x, i);
   }
 
   /// Updates the lists for this call. Returns whether the active rows have changed.
@@ -119,83 +77,121 @@ class Candidates {
   void check(const X& x, const Gradients& F, const E& execute);
 
  private:
-  static constexpr std::size_t chunk = 512, shortest_interval = 8, longest_interval = 64;
-  // What a particle may do until the next check besides its extrapolated motion: a multiple of what it did since the
-  // last check, but at least this (motion in spacings; strain as a relative change of lengths measured by A; rotation
-  // of a normal in rad).
-  static constexpr S least_motion = S(0.01), least_strain = S(0.01), first_strain = S(0.05), least_turn = S(0.03),
-                     first_turn = S(0.2);
-  struct OrganMotion {  // since the broad-phase list was built
-    Point moved;        // mean displacement
-    S motion, growth;   // largest displacement beyond it, largest growth of a reach
-  };
-  struct Part {  // of an organ's members
-    std::size_t organ, begin, end;
-    S motion, growth;
-    Point sum;
-  };
-  struct Watch {  // of particles
-    std::size_t exceeding;
-    bool too_far, late;
-    Index flat = none;  // the first of those without an inverse of F
-  };
-  using Row = typename BroadPhase<S, D>::Row;
-  struct Facing {        // of a slave to one wall, at the latest check
-    Point outward;       // normal of the wall; zero where it was not asked for
-    S turn;              // by which it may turn until the next check
-    bool trusted, late;  // its row sleeps because of it; it has turned further
-  };
   /// In evaluations of one candidate.
-  [[nodiscard]] std::size_t cost_of_check() const { return broad_.masters().size() / 2 + 2 * particle().size(); }
-  [[nodiscard]] const std::vector<OrganPairs::Side>& sides() const { return organs_.sides(); }
-  [[nodiscard]] const std::vector<OrganPairs::Member>& members() const { return organs_.members(); }
-  [[nodiscard]] const std::vector<Index>& particle() const { return organs_.particle(); }
+  [[nodiscard]] std::size_t cost_of_check() const { return list_.masters().size() / 2 + 2 * organs_.particle().size(); }
+  [[nodiscard]] typename SleepingRows<S, D, Kernel>::Source source() const {
+    return {organs_, list_, particles_, normal_density_};
+  }
   void number();
   template <class X, class Gradients, class E>
   [[nodiscard]] bool measure(const X& x, const Gradients& F, const E& execute);
-  template <class E>
-  void measure_organs(const E& execute);
-  [[noreturn]] void fail(const OrganPairs::OrganRange& organ) const;
-  template <class X>
-  void choose_origin(const X& x);
-  template <class Gradients>
-  void check_flat(const Gradients& F) const;
-  [[nodiscard]] S used(std::size_t side) const;
-  template <class E>
-  void build(const E& execute);
-  [[nodiscard]] Point expected(std::size_t i) const { return place_[i] + static_cast<S>(age_) * drift_[i]; }
-  [[nodiscard]] S longer() const { return static_cast<S>(interval_) / static_cast<S>(std::max<std::size_t>(age_, 1)); }
-  void put_to_sleep(std::size_t row);
-  [[nodiscard]] S widest(const Row& row);
+  [[nodiscard]] bool is_used_up() const;
   template <class X, class E>
-  [[nodiscard]] bool watch(const X& x, const E& execute);
-  void wake(Index particle, S moved_squared);
+  void build(const X& x, const E& execute);
+  void limit_travel();
   void select();
 
   NormalDensity<S, D, Kernel> normal_density_;
-  S radius_, margin_;
-  Vector<double, D> origin_ = Vector<double, D>::Zero();  // in m: from where places are measured
+  S margin_;
   OrganPairs organs_;
-  std::vector<OrganMotion> motion_;  // per organ
-  std::vector<Part> parts_;
-  // Of the numbered particles.
-  std::vector<Point> place_, built_place_;  // at the latest check and build
-  std::vector<Point> drift_;                // motion per call that is expected until the next check
-  std::vector<Matrix<S, D>> metric_;        // A = F^-T F^-1 at the latest check
-  std::vector<S> reach_, built_reach_;      // r_e times the stretch
-  std::vector<S> compression_;              // bound of |F^-1|; negative: flattened, no wall
-  std::vector<S> bound_, strain_;           // of motion beside the drift in m and strain, until the next check
-  std::vector<S> travel_;                   // bound and drift in m
-  std::vector<S> allowance_;                // square of the motion that wakes a row or makes a check due
-  std::vector<Index> exceeding_;
-  std::vector<Watch> watches_;
-  BroadPhase<S, D> broad_;
-  std::vector<Index> kept_master_;  // of each row, those within reach before the next check
-  std::vector<Facing> facing_;      // per slot
+  ParticleBounds<S, D> particles_;
+  OrganMotion<S, D> motion_;
+  BroadPhase<S, D> list_;
+  SleepingRows<S, D, Kernel> sleeping_;
   ActiveRows<S> active_;
+  CheckSchedule schedule_;
   std::size_t rebuilds_ = 0, checks_ = 0, late_ = 0;
-  std::size_t age_ = 0, interval_ = longest_interval, newly_active_ = 0, active_work_ = 0;
-  bool built_ = false;
+  bool numbered_ = false, built_ = false;
 };
+
+template <class S, int D, Metaball Kernel>
+template <class X, class Gradients, class E>
+bool Candidates<S, D, Kernel>::update(const X& x, const Gradients& F, const E& execute) {
+  const std::size_t woken = sleeping_.woken();
+  if (!built_ || schedule_.count_call(woken, cost_of_check()) ||
+      !sleeping_.watch(source(), x, schedule_.interval().since, execute)) {
+    check(x, F, execute);
+    return true;
+  }
+  if (sleeping_.woken() == woken) return false;
+  select();
+  return true;
+}
+
+template <class S, int D, Metaball Kernel>
+template <class X, class Gradients, class E>
+void Candidates<S, D, Kernel>::check(const X& x, const Gradients& F, const E& execute) {
+  if (!numbered_) number();
+  if (!built_) sleeping_.resize(organs_.slots());
+  schedule_.choose_interval(active_.master_of().size(), cost_of_check());
+  const bool has_deformed = measure(x, F, execute);
+  ++checks_;
+  if (!built_ || is_used_up()) build(x, execute);
+  limit_travel();
+  const bool has_turned = sleeping_.put_to_sleep(source(), schedule_.interval(), execute);
+  late_ += has_deformed || has_turned;
+  schedule_.start_interval();
+  select();
+}
+
+/// Numbers the particles of all organs once each.
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::number() {
+  organs_.number_particles();
+  particles_.resize(organs_.particle().size());
+  motion_.resize(organs_);
+  numbered_ = true;
+}
+
+/// Measures particles and organs. Returns whether a particle of a row has deformed by more than was allowed for.
+template <class S, int D, Metaball Kernel>
+template <class X, class Gradients, class E>
+bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, const E& execute) {
+  const auto is_listed = [&](std::size_t i) { return list_.rows_of_begin(i) < list_.rows_of_begin(i + 1); };
+  const bool has_deformed =
+      particles_.measure(x, F, organs_.particle(), !built_, schedule_.interval(), is_listed, execute);
+  motion_.measure(organs_, particles_.place(), particles_.reach(), execute);
+  return has_deformed;
+}
+
+/// Whether so little of the margin is left that the next check could come too late.
+template <class S, int D, Metaball Kernel>
+bool Candidates<S, D, Kernel>::is_used_up() const {
+  for (std::size_t s = 0; s < organs_.sides().size(); ++s)
+    if (!(motion_.used(organs_.sides()[s]) + S(0.4) * margin_ < list_.limit(s))) return true;
+  return false;
+}
+
+/// Builds the broad-phase list from the places and reaches of this check.
+template <class S, int D, Metaball Kernel>
+template <class X, class E>
+void Candidates<S, D, Kernel>::build(const X& x, const E& execute) {
+  built_ = false;  // until it is
+  particles_.centre_origin(x, organs_.particle());
+  motion_.restart(particles_.place(), particles_.reach());
+  list_.build({organs_, particles_.place(), particles_.reach(), particles_.compression(), particles_.radius(), margin_},
+              [&](std::size_t n, const std::function<void(std::size_t)>& body) { execute(n, body); });
+  built_ = true;
+  ++rebuilds_;
+}
+
+/// Limits the motion until the next check to what the broad-phase list bears.
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::limit_travel() {
+  // Two particles may approach by twice that; the rest is for the growth of reaches.
+  S most = std::numeric_limits<S>::max();
+  for (std::size_t s = 0; s < organs_.sides().size(); ++s)
+    most = std::min(most, S(0.4) * (list_.limit(s) - motion_.used(organs_.sides()[s])));
+  schedule_.limit_travel(particles_.fastest(), S(0.5) * most);
+  particles_.limit_travel(most, schedule_.interval().until);
+}
+
+/// Makes up the list of active rows.
+template <class S, int D, Metaball Kernel>
+void Candidates<S, D, Kernel>::select() {
+  active_.clear();
+  sleeping_.list_awake(list_, active_);
+  active_.finish(organs_);
+}
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "hmps/contact/bodies.hpp"
-#include "hmps/contact/lists/candidates_check.hpp"
-#include "hmps/contact/lists/candidates_sleep.hpp"
 #include "hmps/core/executor.hpp"
 
 namespace candidates_test {
@@ -21,23 +18,6 @@ using hmps::Index;
 using Lists = hmps::detail::Candidates<double, 3, hmps::SmoothMetaball>;
 using Pile = bodies::Pile<double, 3>;
 using Pairs = std::vector<std::pair<Index, Index>>;
-
-TEST(StretchBound, IsAboveTheLargestSingularValueAndSharpWhereItCounts) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> u(-1, 1);
-  for (int trial = 0; trial < 200; ++trial) {
-    hmps::Matrix<double, 3> F;
-    for (int c = 0; c < 9; ++c) F(c % 3, c / 3) = u(random);
-    // Power iteration.
-    hmps::Vector<double, 3> q(1, 2, 3);
-    for (int k = 0; k < 200; ++k) q = (F.transpose() * (F * q)).normalized();
-    EXPECT_GE((hmps::detail::stretch_bound<double, 3>(F)), (F * q).norm() * (1 - 1e-12));
-  }
-  EXPECT_DOUBLE_EQ((hmps::detail::stretch_bound<double, 3>(2 * hmps::Matrix<double, 3>::Identity())), 2);
-  hmps::Matrix<double, 2> shear = hmps::Matrix<double, 2>::Identity();
-  shear(0, 1) = 1;
-  EXPECT_NEAR((hmps::detail::stretch_bound<double, 2>(shear)), (1 + std::sqrt(5.)) / 2, 1e-12);
-}
 
 template <class L>
 std::size_t declare(L& lists, const Pile& pile, const hmps::PairSettings& settings = {}) {
@@ -231,6 +211,66 @@ TEST(Candidates, ReportWhatIsNotFinite) {
     EXPECT_NE(text.find(std::to_string(pile.block.bottom[3])), std::string::npos) << text;
     EXPECT_NE(text.find("block"), std::string::npos) << text;
   }
+}
+
+TEST(Candidates, StartAnewAfterWhatWasNotFinite) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3), other(1e-3, 0.5e-3);
+  declare(lists, pile);
+  declare(other, pile);
+  const auto x = pile.x;
+  pile.x[pile.block.bottom[3]][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(lists.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}), hmps::StateError);
+  pile.x = x;
+  for (Lists* each : {&lists, &other}) each->update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{});
+  EXPECT_EQ(listed(lists), listed(other));
+  EXPECT_EQ(lists.rebuilds(), 1U);
+}
+
+TEST(Candidates, TakeInAnOrganThatIsAddedLater) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3), other(1e-3, 0.5e-3);
+  const auto update = [&](Lists& each) { each.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}); };
+  const auto a = lists.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper});
+  update(lists);
+  EXPECT_TRUE(listed(lists).empty());
+  lists.add_pair(a, lists.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower}), {});
+  update(lists);
+  declare(other, pile);
+  update(other);
+  EXPECT_EQ(listed(lists), listed(other));
+}
+
+TEST(Candidates, CountChecksThatCameLate) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  const auto check = [&] { lists.check(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}); };
+  check();
+  check();
+  EXPECT_EQ(lists.late(), 0U);
+  pile.F[pile.block.bottom[5]] *= 1.3;
+  check();
+  EXPECT_EQ(lists.late(), 1U);
+  check();
+  EXPECT_EQ(lists.late(), 1U);
+}
+
+TEST(Candidates, BuildTheBroadPhaseListAnewOnceItIsUsedUpOrRefreshed) {
+  Pile pile(3);
+  Lists lists(1e-3, 0.5e-3);
+  declare(lists, pile);
+  const auto check = [&](double by) {
+    for (const Index i : pile.block.all) pile.x[i][0] += by;
+    for (int k = 0; k < 2; ++k) lists.check(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{});
+    return lists.rebuilds();
+  };
+  EXPECT_EQ(check(0), 1U);
+  EXPECT_EQ(check(0.02e-3), 1U);
+  EXPECT_EQ(check(0.5e-3), 2U);
+  lists.refresh();
+  EXPECT_EQ(check(0), 3U);
+  EXPECT_EQ(lists.checks(), 8U);
 }
 
 }  // namespace candidates_test
