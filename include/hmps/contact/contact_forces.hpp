@@ -50,7 +50,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const S k = penalty(stiffness(p), dt);
     laws_[p] = {k, static_cast<S>(2 * damping()) * std::sqrt(k * static_cast<S>(settings_.density)),
-                static_cast<S>(own_[p].friction.value_or(settings_.friction)), 0};
+                static_cast<S>(detail::finite_friction(own_[p].friction.value_or(settings_.friction))), 0};
   }
 }
 

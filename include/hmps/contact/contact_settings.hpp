@@ -6,15 +6,18 @@
 
 #include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
 /// Settings of `MetaballContact`.
 struct ContactSettings {
-  double spacing;                                             ///< l0 in m.
-  double density;                                             ///< rho in kg/m3.
-  double friction = 0;                                        ///< mu_tan, \paper{23}; per pair: `PairSettings`.
+  double spacing;  ///< l0 in m.
+  double density;  ///< rho in kg/m3.
+  /// mu_tan, \paper{23}; per pair: `PairSettings`. Infinity, or 100 and more: what touches sticks.
+  double friction = 0;
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
   /// Normal damping as a fraction of critical, 2 sqrt(k rho), whatever the penalty law; an extension, the paper has
   /// none. It is limited so that it does not reverse the closing velocity within a step. If not set, zero, or the value
@@ -22,6 +25,20 @@ struct ContactSettings {
   std::optional<double> damping = std::nullopt;
   double margin = 0.5;  ///< Margin of the Verlet lists in spacings: motion until they are rebuilt.
 };
+
+namespace detail {
+
+/// Throws `InputError` unless `mu` is a coefficient of friction. What slides has a few at most, so that one from 10 to
+/// 100 is in per cent.
+inline void require_friction(double mu) {
+  require(!is_nan(mu) && mu >= 0, "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
+  require(!(mu > 10 && mu < 100), "hmps: the friction coefficient is ", mu, "; give ", mu / 100, " if it is ", mu,
+          " per cent, or infinity if what touches is to stick");
+}
+/// `mu` as a number to compute with: infinite friction holds a million times the normal force.
+[[nodiscard]] inline double finite_friction(double mu) { return is_finite(mu) ? mu : 1e6; }
+
+}  // namespace detail
 
 /// Report of one evaluation.
 template <class S>

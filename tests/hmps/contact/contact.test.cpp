@@ -611,6 +611,9 @@ TEST(Pairs, MayHaveFrictionAndStiffnessOfTheirOwn) {
   EXPECT_EQ(mixed[1], full[1]);
   EXPECT_THROW(forces(rough, {.friction = -0.1}, {}), hmps::InputError);
   EXPECT_THROW(forces(rough, {.friction = std::numeric_limits<double>::quiet_NaN()}, {}), hmps::InputError);
+  EXPECT_THROW(forces(rough, {.friction = 30}, {}), hmps::InputError) << "per cent";
+  EXPECT_EQ(forces(rough, {.friction = std::numeric_limits<double>::infinity()}, {}),
+            forces(rough, {.friction = 1e6}, {}));
 }
 
 TEST(Door, RefusesOrgansOfWhichNoneMayTouch) {
@@ -657,6 +660,8 @@ TEST(Door, RefusesBadInput) {
   const auto a = contact.add_organ({.name = "a", .slaves = some, .masters = some, .prescribed = {}});
   const auto b = contact.add_organ({.name = "b", .slaves = overlap, .masters = overlap, .prescribed = {}});
   const auto c = contact.add_organ({.name = "c", .slaves = pile.block.bottom, .masters = {}, .prescribed = {}});
+  EXPECT_THROW(contact.set_friction(30), hmps::InputError) << "per cent";
+  EXPECT_NO_THROW(contact.set_friction(std::numeric_limits<double>::infinity())) << "sticks";
   EXPECT_THROW(contact.add_pair(a, b), hmps::InputError) << "particle 2 is in both";
   EXPECT_THROW(contact.add_pair(a, a), hmps::InputError);
   EXPECT_THROW(contact.add_pair(a, 7), hmps::InputError);
