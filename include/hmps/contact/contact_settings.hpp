@@ -32,8 +32,19 @@ namespace detail {
 /// 100 is in per cent.
 inline void require_friction(double mu) {
   require(!is_nan(mu) && mu >= 0, "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
-  require(!(mu > 10 && mu < 100), "hmps: the friction coefficient is ", mu, "; give ", mu / 100, " if it is ", mu,
+  require(!(mu >= 10 && mu < 100), "hmps: the friction coefficient is ", mu, "; give ", mu / 100, " if it is ", mu,
           " per cent, or infinity if what touches is to stick");
+}
+/// Throws `InputError` for settings that are not finite or out of range. `damping` is that which is in force.
+inline void validate(const ContactSettings& settings, double damping) {
+  require(is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ", settings.density,
+          " kg/m3; give a positive number");
+  require_friction(settings.friction);
+  require(is_finite(damping) && damping >= 0 && damping < 10, "hmps: the contact damping is ", damping,
+          "; give zero or a positive fraction of critical, 0.3 for 30 per cent");
+  require(is_finite(settings.margin) && settings.margin > 0 && settings.margin <= 10,
+          "hmps: the margin of the contact lists is ", settings.margin,
+          " spacings; give a positive number of spacings of at most 10, such as 0.5");
 }
 /// `mu` as a number to compute with: infinite friction holds a million times the normal force.
 [[nodiscard]] inline double finite_friction(double mu) { return is_finite(mu) ? mu : 1e6; }

@@ -74,14 +74,7 @@ class MetaballContact {
       : settings_(settings),
         penalty_(law),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
-    detail::require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
-                    settings.density, " kg/m3; give a positive number");
-    detail::require_friction(settings.friction);
-    detail::require(detail::is_finite(damping()) && damping() >= 0, "hmps: the contact damping is ", damping(),
-                    "; give zero or a positive fraction of critical");
-    detail::require(detail::is_finite(settings.margin) && settings.margin > 0,
-                    "hmps: the margin of the contact lists is ", settings.margin,
-                    " spacings; give a positive number, such as 0.5");
+    detail::validate(settings, damping());
   }
 
   /// Declares an organ and returns its number for `add_pair`. Throws `InputError` if it is empty.

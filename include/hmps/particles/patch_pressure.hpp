@@ -103,7 +103,7 @@ class PatchPressure {
     require_positive(volume, x.size(), "volume", "m3");
     if (x.size() > 0) {
       constexpr double most = 8;
-      const double mean = mean_of(volume, x.size());
+      const double mean = detail::mean_of(volume, x.size());
       const double share = mean / (spacing_ * spacing_ * spacing_);
       detail::require(share < most && share > 1 / most, "hmps: the `volume` of PatchPressure::add is ", mean,
                       " m3 a particle, but the cube of the spacing of ", spacing_,
@@ -133,15 +133,6 @@ class PatchPressure {
 
  private:
   using V = Vector<double, 3>;
-
-  /// The mean of `volume` over `size` particles in m3.
-  template <class Vol>
-  [[nodiscard]] static double mean_of(const Vol& volume, std::size_t size) {
-    if constexpr (std::is_arithmetic_v<Vol>) return static_cast<double>(volume);
-    double sum = 0;
-    for (std::size_t i = 0; i < size; ++i) sum += static_cast<double>(at_particle(volume, i));
-    return sum / static_cast<double>(size);
-  }
 
   /// A patch that has edges of a spacing already.
   template <class S>

@@ -50,10 +50,9 @@ template <class T, int D>
 }
 
 /// Throws `InputError` if `spacing` (m), which `what` was given, is not about that of the particles at `points` (m),
-/// within a factor of 4.
+/// within a factor `most`.
 template <class T, int D>
-void require_spacing_of(const VectorView<T, D>& points, double spacing, const char* what) {
-  constexpr double most = 4;
+void require_spacing_of(const VectorView<T, D>& points, double spacing, const char* what, double most = 4) {
   const double found = nearest_spacing(points);
   require(found == 0 || (spacing < most * found && found < most * spacing), "hmps: the spacing of ", what, " is ",
           spacing, " m, but the nearest particles lie ", found,

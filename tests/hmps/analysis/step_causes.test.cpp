@@ -134,6 +134,10 @@ TEST(StepCausesMisuse, IsRefused) {
   EXPECT_NEAR(found.limit, 2 / std::sqrt(1e3), 1e-6);
   // Trial displacements that vanish in the rounding of the positions.
   EXPECT_THROW((void)stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-12}), InputError);
+  // A spacing in millimetres makes trial displacements a thousand times as large.
+  EXPECT_THROW((void)stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e3}), InputError);
+  EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e3}, NamedForce{"spring", spring}),
+               InputError);
   found.mode.assign(6, 0.0);
   const NamedForce part{"spring", spring};
   EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, part), InputError);

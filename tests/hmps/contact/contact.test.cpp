@@ -651,7 +651,9 @@ TEST(Door, RefusesBadInput) {
   refuse({.spacing = 1e-3, .density = 1000, .friction = -0.1});
   refuse({.spacing = 1e-3, .density = 1000, .friction = nan});
   refuse({.spacing = 1e-3, .density = 1000, .damping = -1});
+  refuse({.spacing = 1e-3, .density = 1000, .damping = 30});  // per cent
   refuse({.spacing = 1e-3, .density = 1000, .margin = 0});
+  refuse({.spacing = 1e-3, .density = 1000, .margin = 500});  // micrometres
 
   bodies::Pile<double, 3> pile(0.9);
   Contact contact(with_friction);
@@ -681,6 +683,24 @@ TEST(Door, RefusesBadInput) {
   Contact stiff({.spacing = 1e-3, .density = 1000, .stiffness = hmps::PenaltyStiffness::fixed(3e12)});
   pile.declare(stiff);
   EXPECT_THROW(pile.apply(stiff, 2e-5), hmps::InputError);
+}
+
+/// Of a ratio that is given as a coefficient a wall does not push.
+TEST(Door, RefusesAPenaltyOfNothing) {
+  bodies::Pile<double, 3> pile(0.9);
+  MetaballContact<double, 3> contact(
+      {.spacing = 1e-3, .density = 1000, .stiffness = hmps::PenaltyStiffness::fixed(0.3)});
+  pile.declare(contact);
+  EXPECT_NE(message_of([&] { pile.apply(contact, dt); }).find("PenaltyStiffness::ratio"), std::string::npos);
+}
+
+/// Its organs are looked up by number.
+TEST(Door, RefusesTheReportOfAnotherContact) {
+  const MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000});
+  hmps::ContactReport<double> report;
+  report.deep = 1;
+  report.lost_in = 5;
+  EXPECT_THROW(contact.check(report), hmps::InputError);
 }
 
 }  // namespace contact_test
