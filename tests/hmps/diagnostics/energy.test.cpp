@@ -13,6 +13,7 @@
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/laws/neo_hookean.hpp"
 #include "hmps/laws/saint_venant_kirchhoff.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/time/symplectic_euler.hpp"
