@@ -16,6 +16,7 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
+#include "hmps/core/trial.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/nearest_spacing.hpp"
 
@@ -116,16 +117,6 @@ class RelaxationStep {
   int evaluations_ = 0;
 };
 
-/// Throws `InputError` if `spacing` (m) is not about that of the particles: forces would count for nothing or too much.
-template <class X, int D>
-void require_spacing_of(const VectorView<X, D>& x, double spacing) {
-  constexpr double most = 4;
-  const double found = nearest_spacing(x);
-  require(found == 0 || (spacing < most * found && found < most * spacing), "hmps: the spacing of relax is ", spacing,
-          " m, but the nearest particles lie ", found,
-          " m apart; give the particle spacing l0, in the unit of the positions");
-}
-
 /// Throws `InputError` if `force` writes nothing to `f` even at positions around `x`, by a thousandth of a `spacing`
 /// (m) off: then it does not look at them.
 template <class Force, class X, class V, class F, int D>
@@ -136,6 +127,7 @@ void require_response(Force& force, const VectorView<X, D>& x, const VectorView<
   for (std::size_t i = 0; i < off.size(); ++i)
     for (int c = 0; c < D; ++c)
       off[i][c] = x(i, c) + static_cast<Place>(1e-3 * spacing * std::sin(1.7 * static_cast<double>(i) + 2.3 * c));
+  const Trial trial;
   force(VectorView<const Place, D>(vectors(off)), v, f);
   bool written = false;
   for (std::size_t i = 0; i < f.size(); ++i)
@@ -160,7 +152,7 @@ void require_relaxable(const VectorView<X, D>& x, const VectorView<V, D>& v, con
   require_positive(rho, n, "density", "kg/m3");
   require_scene(settings.moves, n, "that move in relax");
   require_finite(x, "the position");
-  require_spacing_of(x, settings.spacing);
+  require_spacing_of(x, settings.spacing, "relax");
 }
 
 template <class F, int D>

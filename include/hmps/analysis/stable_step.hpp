@@ -13,6 +13,7 @@
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -46,9 +47,9 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
-/// bad settings or views, for trial displacements that vanish in the rounding of the positions, and if `start` or a set
-/// of particles in `moves` has a different number of particles; `StateError` if the force of a particle is
-/// not finite.
+/// bad settings or views, for a spacing in another unit than the positions, for trial displacements that vanish in the
+/// rounding of the positions, and if `start` or a set of particles in `moves` has a different number of particles;
+/// `StateError` if the force of a particle is not finite.
 template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Serial>
 [[nodiscard]] StableStep stable_step(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
                                      const Rho& density, const StableStepSettings& settings, const E& execute = {}) {
@@ -63,6 +64,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   detail::require_scene(settings.moves, x.size(), "that move in stable_step");
   require_finite(x, "the position");
   require_finite(v, "the velocity");
+  detail::require_spacing_of(x, settings.spacing, "stable_step", detail::most_compressed);
   detail::StepSearch<std::remove_reference_t<Force>, T, D, Rho, E> search(force, x, v, density, settings, execute);
   return search.run();
 }

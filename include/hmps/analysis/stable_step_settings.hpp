@@ -68,6 +68,9 @@ inline void validate(const StableStepSettings& s) {
           "hmps: the perturbation of stable_step is ", s.perturbation, " spacings; it must lie in [0, 0.1)");
 }
 
+/// By how much the spacing of deformed particles may differ from l0: more is another unit.
+inline constexpr double most_compressed = 100;
+
 /// Length in m of the trial displacements for positions of type `T`.
 template <class T>
 [[nodiscard]] double trial_displacement(const StableStepSettings& s) {

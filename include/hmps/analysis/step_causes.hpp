@@ -19,6 +19,7 @@
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -64,6 +65,7 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
                   "; give the result of stable_step");
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
+  detail::require_spacing_of(x, settings.spacing, "step_causes", detail::most_compressed);
   std::vector<StepCause> causes;
   if (!detail::is_finite(found.limit)) return causes;
   const double dt = found.limit;

@@ -35,9 +35,9 @@ namespace detail {
 inline void validate(const BondSettings& settings) {
   require(detail::is_finite(settings.spacing) && settings.spacing > 0, "hmps: the particle spacing is ",
           settings.spacing, " m; it must be positive");
-  require(detail::is_finite(settings.radius_ratio) && settings.radius_ratio > 0,
-          "hmps: the effective radius over the spacing is ", settings.radius_ratio,
-          "; it must be positive (the paper has 1.75)");
+  require(detail::is_finite(settings.radius_ratio) && settings.radius_ratio > 0 && settings.radius_ratio < 16,
+          "hmps: the effective radius is ", settings.radius_ratio,
+          " spacings; it must be positive and below 16 (the paper has 1.75)");
 }
 
 /// Whether `bonded(i, j)` holds. Throws `InputError` if `bonded(j, i)` says otherwise: the forces of such a bond would

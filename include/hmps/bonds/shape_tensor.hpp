@@ -40,9 +40,8 @@ struct ShapeTensor {
         neighbours >= D && detail::is_finite(mean) && mean > 0 && A.determinant() > 1e-4 * volume, "hmps: particle ",
         particle, " has ", neighbours, neighbours == 1 ? " neighbour that does" : " neighbours that do",
         " not span the ", D,
-        "D space, so that it has no deformation gradient; remove weakly supported particles, fill the gap, or "
-        "enlarge the "
-        "radius");
+        "D space, so that it has no deformation gradient; remove weakly supported particles, fill the gap, enlarge the "
+        "radius, or let `bonded` hold for more of its pairs, if you gave one");
     return A.inverse();
   }
 

@@ -119,6 +119,9 @@ bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, cons
 
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<S>& report, double time) const {
+  detail::require(report.lost_in < lists_.organs().organs().size(), "hmps: the report to be checked is of organ ",
+                  report.lost_in, ", but this contact has ", lists_.organs().organs().size(),
+                  " organs; give the report of its own latest call");
   throw StateError(
       detail::message("hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
                       lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
@@ -205,6 +208,7 @@ ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const 
   lists_.organs().require_particles(x.size());
   require_scene(x);
   set_laws(dt);
+  if constexpr (has_spring) kept_.settle(history_, motion_);
   if (lists_.update(x, F, execute)) resize();
   history_.next_call();
   const std::size_t row_count = lists_.active().rows().size() - 1;

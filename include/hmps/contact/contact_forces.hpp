@@ -8,10 +8,13 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it.
+/// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it, and for less than 1 N/m4,
+/// which is a ratio. What your own law makes of its coefficient is its own affair.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = is_linear ? stiffness.at(settings_.density, dt) : stiffness.coefficient(settings_.density, dt);
+  detail::require(!is_linear || k >= 1, "hmps: the penalty coefficient k is ", k,
+                  " N/m4, with which walls do not push; a ratio k~ is given by PenaltyStiffness::ratio");
   const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
   detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
                       largest <= static_cast<double>(std::numeric_limits<S>::max()),
@@ -50,7 +53,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const S k = penalty(stiffness(p), dt);
     laws_[p] = {k, static_cast<S>(2 * damping()) * std::sqrt(k * static_cast<S>(settings_.density)),
-                static_cast<S>(own_[p].friction.value_or(settings_.friction)), 0};
+                static_cast<S>(detail::finite_friction(own_[p].friction.value_or(settings_.friction))), 0};
   }
 }
 

@@ -6,15 +6,18 @@
 
 #include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
 /// Settings of `MetaballContact`.
 struct ContactSettings {
-  double spacing;                                             ///< l0 in m.
-  double density;                                             ///< rho in kg/m3.
-  double friction = 0;                                        ///< mu_tan, \paper{23}; per pair: `PairSettings`.
+  double spacing;  ///< l0 in m.
+  double density;  ///< rho in kg/m3.
+  /// mu_tan, \paper{23}; per pair: `PairSettings`. Infinity, or 100 and more: what touches sticks.
+  double friction = 0;
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
   /// Normal damping as a fraction of critical, 2 sqrt(k rho), whatever the penalty law; an extension, the paper has
   /// none. It is limited so that it does not reverse the closing velocity within a step. If not set, zero, or the value
@@ -22,6 +25,31 @@ struct ContactSettings {
   std::optional<double> damping = std::nullopt;
   double margin = 0.5;  ///< Margin of the Verlet lists in spacings: motion until they are rebuilt.
 };
+
+namespace detail {
+
+/// Throws `InputError` unless `mu` is a coefficient of friction. What slides has a few at most, so that one from 10 to
+/// 100 is in per cent.
+inline void require_friction(double mu) {
+  require(!is_nan(mu) && mu >= 0, "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
+  require(!(mu >= 10 && mu < 100), "hmps: the friction coefficient is ", mu, "; give ", mu / 100, " if it is ", mu,
+          " per cent, or infinity if what touches is to stick");
+}
+/// Throws `InputError` for settings that are not finite or out of range. `damping` is that which is in force.
+inline void validate(const ContactSettings& settings, double damping) {
+  require(is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ", settings.density,
+          " kg/m3; give a positive number");
+  require_friction(settings.friction);
+  require(is_finite(damping) && damping >= 0 && damping < 10, "hmps: the contact damping is ", damping,
+          "; give zero or a positive fraction of critical, 0.3 for 30 per cent");
+  require(is_finite(settings.margin) && settings.margin > 0 && settings.margin <= 10,
+          "hmps: the margin of the contact lists is ", settings.margin,
+          " spacings; give a positive number of spacings of at most 10, such as 0.5");
+}
+/// `mu` as a number to compute with: infinite friction holds a million times the normal force.
+[[nodiscard]] inline double finite_friction(double mu) { return is_finite(mu) ? mu : 1e6; }
+
+}  // namespace detail
 
 /// Report of one evaluation.
 template <class S>

@@ -12,6 +12,7 @@
 
 #include "hmps/contact/contact_history.hpp"
 #include "hmps/contact/contact_settings.hpp"
+#include "hmps/contact/kept_history.hpp"
 #include "hmps/contact/lists/candidates.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
@@ -73,14 +74,7 @@ class MetaballContact {
       : settings_(settings),
         penalty_(law),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
-    detail::require(detail::is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ",
-                    settings.density, " kg/m3; give a positive number");
-    require_friction(settings.friction);
-    detail::require(detail::is_finite(damping()) && damping() >= 0, "hmps: the contact damping is ", damping(),
-                    "; give zero or a positive fraction of critical");
-    detail::require(detail::is_finite(settings.margin) && settings.margin > 0,
-                    "hmps: the margin of the contact lists is ", settings.margin,
-                    " spacings; give a positive number, such as 0.5");
+    detail::validate(settings, damping());
   }
 
   /// Declares an organ and returns its number for `add_pair`. Throws `InputError` if it is empty.
@@ -91,7 +85,7 @@ class MetaballContact {
   /// the same master in the same role in another pair (for example, because one body is declared as two organs): the
   /// force would count twice. Otherwise, organs of different pairs may share slaves or masters.
   std::size_t add_pair(std::size_t first, std::size_t second, const PairSettings& settings = {}) {
-    if (settings.friction) require_friction(*settings.friction);
+    if (settings.friction) detail::require_friction(*settings.friction);
     const std::size_t pair = lists_.add_pair(first, second, settings);
     own_.push_back({settings.friction, settings.stiffness});
     return pair;
@@ -99,6 +93,7 @@ class MetaballContact {
 
   /// Rebuilds all lists at the next call. Not needed after time steps.
   void refresh() {
+    if constexpr (has_spring) kept_.settle(history_, motion_);
     lists_.refresh();
     history_.next_call();
   }
@@ -106,7 +101,7 @@ class MetaballContact {
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
   /// Sets mu of the pairs without a friction coefficient of their own (`PairSettings::friction`).
   void set_friction(double mu) {
-    require_friction(mu);
+    detail::require_friction(mu);
     settings_.friction = mu;
   }
 
@@ -243,10 +238,6 @@ class MetaballContact {
   [[nodiscard]] double damping() const { return settings_.damping.value_or(detail::damping_of<Friction>()); }
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
-  static void require_friction(double mu) {
-    detail::require(detail::is_finite(mu) && mu >= 0, "hmps: the friction coefficient is ", mu,
-                    "; give zero or a positive number");
-  }
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;
 
   template <class X, class G>
@@ -292,6 +283,9 @@ class MetaballContact {
   std::vector<S> load_;         // per awake particle: N
   detail::ContactHistory<D, Slip> history_;
   [[no_unique_address]] std::conditional_t<has_spring, detail::ParticleMotion<S, D>, detail::NoSlip> motion_;
+  [[no_unique_address]] std::conditional_t<has_spring, detail::KeptHistory<D, decltype(history_), decltype(motion_)>,
+                                           detail::NothingKept>
+      kept_;
 };
 
 }  // namespace hmps::inline HMPS_ABI

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <string>
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
@@ -99,5 +100,34 @@ void require_positive(const Q& quantity, std::size_t size, const char* name, con
     }
   }
 }
+
+namespace detail {
+
+/// Throws `InputError` unless the quantity is finite and not negative at each of the `size` particles; the message
+/// calls it `name`, in `unit`.
+template <class Q>
+void require_not_negative(const Q& quantity, std::size_t size, const char* name, const char* unit) {
+  require_quantity(quantity, size, name);
+  for (std::size_t i = 0; i < (std::is_arithmetic_v<Q> ? 1 : size); ++i) {
+    const auto value = static_cast<double>(at_particle(quantity, i));
+    require(is_finite(value) && value >= 0, "hmps: the ", name, std::is_arithmetic_v<Q> ? "" : " of particle ",
+            std::is_arithmetic_v<Q> ? std::string() : std::to_string(i), " is ", value, " ", unit,
+            "; it must be finite and not negative");
+  }
+}
+
+/// The mean of `quantity` over `size` particles.
+template <class Q>
+[[nodiscard]] double mean_of(const Q& quantity, std::size_t size) {
+  if constexpr (std::is_arithmetic_v<Q>) {
+    return static_cast<double>(quantity);
+  } else {
+    double sum = 0;
+    for (std::size_t i = 0; i < size; ++i) sum += static_cast<double>(at_particle(quantity, i));
+    return sum / static_cast<double>(size);
+  }
+}
+
+}  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

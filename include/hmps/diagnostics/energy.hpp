@@ -54,6 +54,7 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double strain_energy(const MatrixView<T, D>& F, const Material& material, const Vol& volume,
                                    const E& execute = {}) {
   detail::require_recorded(F);
+  if constexpr (requires { material.validate(); }) material.validate();
   require_positive(volume, F.size(), "volume", "m3");
   return reduce(
       F.size(), 0.0,
@@ -115,7 +116,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   require_size(F, bonds.size(), "deformation gradients");
   detail::require_recorded(F);
   require_positive(volume, bonds.size(), "volume", "m3");
-  detail::require_quantity(modulus, bonds.size(), "moduli of the stabiliser");
+  detail::require_not_negative(modulus, bonds.size(), "modulus of the stabiliser", "Pa");
   using K = typename B::Scalar;
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
   const Vector<double, D> common = detail::common_displacement(bonds, x);
@@ -151,7 +152,7 @@ template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, E
   detail::require_recorded(F);
   require_positive(volume, bonds.size(), "volume", "m3");
   const auto scales = detail::neighbourhood_scales(bonds);
-  detail::require_quantity(bulk, bonds.size(), "bulk moduli");
+  detail::require_not_negative(bulk, bonds.size(), "bulk modulus of mean_dilatation_energy", "Pa");
   const auto theta = detail::mean_dilatations(bonds, F, scales, Means, execute);
   return reduce(
       bonds.size(), 0.0,

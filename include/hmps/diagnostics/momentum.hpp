@@ -5,7 +5,9 @@
 #include <functional>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -59,6 +61,8 @@ template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E 
   require_size(v, x.size(), "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
   require_positive(volume, v.size(), "volume", "m3");
+  detail::require(detail::all_finite(about), "hmps: the angular momentum is asked for about the point (",
+                  about.transpose(), "); give finite metres");
   using Sum = Axial<D>;
   return reduce(
       v.size(), Sum(Sum::Zero()),

@@ -86,6 +86,7 @@ template <class T, int D, class Material, class R, int N, class Value, class E>
 void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const View<R, N>& stress, const char* name,
                      const Value& value, const E& execute) {
   require_recorded(F);
+  if constexpr (requires { material.validate(); }) material.validate();
   require_size(stress, F.size(), "stresses");
   require_apart(stress, "stresses", F, "deformation gradients");
   execute(F.size(), [&](std::size_t i) {

@@ -67,7 +67,7 @@ class InternalForce {
   void restrict_to(Moves&& moves) {
     bonds_ = &bonds();
     if constexpr (requires { moves.scene_size(); })
-      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set of particles that move is one of ",
+      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set `moves` of restrict_to is one of ",
                       moves.scene_size(), " particles, the body has ", bonds_->size(),
                       "; make it for all particles of the body");
     restricted_.restrict_to(*bonds_, moves, Sweeps::means);
@@ -138,7 +138,7 @@ class InternalForce {
     const B& now = bonds();
     require_size(x, now.size(), "positions");
     require_positive(volume, now.size(), "volume", "m3");
-    if constexpr (std::is_arithmetic_v<Vol>) require_volume(now, static_cast<double>(volume));
+    if (now.size() > 0) require_volume(now, detail::mean_of(volume, now.size()));
     const typename B::template Slots<1>* scales = nullptr;
     if constexpr (dilates) scales = &sweeps_.scales();
     return detail::energies(now, sweeps_.terms(), scales, x, volume, execute);

@@ -40,7 +40,10 @@ class Pressure {
   /// set has the wrong size or contains no particle near a surface, and for a wall of fewer than four layers.
   template <Bonds B>
   requires(B::dimension == D) Pressure(const B& bonds, const ParticleSet& loaded)
-      : size_(bonds.size()), particles_(loaded.indices()), area_(particles_.size()) {
+      : size_(bonds.size()),
+        bond_(std::sqrt(bonds.standard_lambda())),
+        particles_(loaded.indices()),
+        area_(particles_.size()) {
     detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is of ",
                     loaded.scene_size(), " particles but the bonds are of ", size_, "; make both of the same scene");
     double largest = 0, least = 0;  // |b| of a face is of the order of one over the length of a bond
@@ -77,8 +80,14 @@ class Pressure {
   }
 
   /// The outward area vector of the loaded particles in the reference configuration in m2 (in two dimensions m), where
-  /// each has `volume` (m^D): for a plane face its area along its normal, for a closed surface zero.
+  /// each has `volume` (m^D): for a plane face its area along its normal, for a closed surface zero. Throws
+  /// `InputError` for a volume that cannot be that of a particle between these bonds.
   [[nodiscard]] Vector<double, D> area(double volume) const {
+    constexpr double most = 100;
+    const double share = volume / std::pow(bond_, D);
+    detail::require(detail::is_finite(volume) && share < most && share > 1 / most,
+                    "hmps: the area under pressure is asked for particles of ", volume, " m", D, ", but bonds are ",
+                    bond_, " m long; give l0^", D, " of the spacing l0");
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const auto& own : area_) sum += own * volume;
     return sum;
@@ -141,6 +150,7 @@ class Pressure {
   }
 
   std::size_t size_;
+  double bond_;  // m, the length of a bond
   std::vector<Index> particles_;
   std::vector<Vector<double, D>> area_;
 };

@@ -76,8 +76,9 @@ class ControlRegion {
   /// contact, also before the contact. Internal forces kick a prescribed particle like any other, and a wall with such
   /// a velocity would cause friction where it does not move. Rounding errors in `x` do not accumulate over steps.
   ///
-  /// Throws `StateError`, with particle and speed, if the motion exceeds `speed_limit` (m/s) or is not finite, as it
-  /// may when a run starts in the middle of a motion without `place`.
+  /// Throws `InputError` for a `Pose` that does not rotate, `StateError`, with particle and speed, if the motion
+  /// exceeds `speed_limit` (m/s) or is not finite, as it may when a run starts in the middle of a motion without
+  /// `place`.
   template <class X, class V, Executor E = Serial>
   void prescribe(const VectorView<X, D>& x, const VectorView<V, D>& v, double t, double dt, double speed_limit,
                  const E& execute = {}) const {
@@ -90,6 +91,7 @@ class ControlRegion {
     require_size(v, reference_.size(), "velocities");
     require_apart(x, "positions", reference_, "reference positions of a control region");
     const auto pose = motion_(t);
+    detail::require_rigid(pose, t);
     const double per_step = 1 / dt, largest = std::min(speed_limit * speed_limit, std::numeric_limits<double>::max());
     execute(particles_.size(), [&](std::size_t k) {
       const std::size_t i = particles_[k];
@@ -131,6 +133,7 @@ class ControlRegion {
                     " s; give finite seconds");
     constexpr double h = 1e-6;
     const auto now = motion_(t);
+    detail::require_rigid(now, t);
     const auto before = motion_(t - h);
     const auto after = motion_(t + h);
     for (const Index i : particles_) {

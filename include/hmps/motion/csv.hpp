@@ -90,8 +90,14 @@ void for_each_cell(std::string_view line, Use&& use) {
           fail("the column '", detail::printable(name), "' is named twice; name each column once");
         table.names.emplace_back(name);
       });
+      if (std::ranges::all_of(table.names, [](const std::string& name) {
+            double number{};
+            return detail::parse_number(std::string_view(name), number);
+          }))
+        fail("the first line, '", detail::printable(line), "', holds numbers alone; it must name the columns");
       if (table.names.size() == 1 && line.find_first_of(";\t") != std::string_view::npos)
-        fail("'", detail::printable(line), "' is the name of one column; separate columns by commas, with points in the "
+        fail("'", detail::printable(line),
+             "' is the name of one column; separate columns by commas, with points in the "
              "numbers");
       continue;
     }
@@ -128,7 +134,11 @@ template <std::size_t N>
                   " are to be scaled by ", scale, "; give a factor that is not zero, 1e-3 for millimetres");
   const std::size_t clock = table.column(time);
   std::array<std::size_t, N> columns{};
-  for (std::size_t c = 0; c < N; ++c) columns[c] = table.column(names[c]);
+  for (std::size_t c = 0; c < N; ++c) {
+    columns[c] = table.column(names[c]);
+    detail::require(columns[c] != clock, "hmps: the column '", time, "' of ", table.source,
+                    " is to be both time and value of keyframes; name another for one of them");
+  }
   detail::require(table.rows() > 0, "hmps: ", table.source, " has a header but no row; give at least one keyframe");
   std::vector<Keyframe<static_cast<int>(N)>> keys(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -78,6 +81,22 @@ struct Pose {
     return pivot + translation + rotation * (reference - pivot);
   }
 };
+
+namespace detail {
+/// Throws `InputError` if the matrix of `pose` at `time` (s) is no rotation. Passes what is not finite, and what is no
+/// `Pose` and need not be rigid.
+template <class S, int D>
+void require_rigid(const Pose<S, D>& pose, double time) {
+  const Matrix<S, D> excess = pose.rotation * pose.rotation.transpose() - Matrix<S, D>::Identity();
+  require(
+      !all_finite(excess) || (excess.norm() < S(1e-3) && determinant(pose.rotation) > S(0)),
+      "hmps: the rotation of a pose at ", time, " s is the matrix (by columns) ", pose.rotation,
+      ", which is none; give one that is orthogonal with the determinant 1, as rotation(vector) makes it, or return "
+      "a lambda in place of a Pose for a motion that is not rigid");
+}
+template <class Map>
+void require_rigid(const Map&, double) {}
+}  // namespace detail
 
 /// The composition of two poses: `compose(second, first)(X) == second(first(X))`.
 template <class S, int D>

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -132,10 +133,27 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
 
 }  // namespace detail
 
+namespace detail {
+/// Throws `InputError` unless `names` are those of a field of whole numbers among `fields`, a name for each.
+inline void require_names(const VtkNames& names, std::span<const VtkField> fields) {
+  const auto found = std::ranges::find_if(
+      fields, [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; });
+  require(found != fields.end(), "hmps: a VTU file has names for the values of ", names.field,
+          ", which is no field of whole numbers in it; name a field that is written too");
+  for (std::size_t i = 0; i < found->bytes.size() / sizeof(std::int32_t); ++i) {
+    std::int32_t value = 0;
+    std::memcpy(&value, found->bytes.data() + i * sizeof(value), sizeof(value));
+    require(value < static_cast<std::int64_t>(names.names.size()), "hmps: number ", i, " of the field ", names.field,
+            " of a VTU file is ", value, ", but there are only ", names.names.size(),
+            " names for its values; give one for each, counted from 0");
+  }
+}
+}  // namespace detail
+
 /// Points with fields as the bytes of a VTK file (.vtu, unstructured grid, version 1.0, appended raw data), which
 /// ParaView, VTK and meshio read. `positions` in m has three components. Throws `InputError` for fields of another
 /// size, without a name or with the same one, triangles that name points that are not there, names of no field of whole
-/// numbers, and a time that is not finite.
+/// numbers or too few for its values, and a time that is not finite.
 [[nodiscard]] inline std::string vtu_text(const VtkField& positions, std::span<const VtkField> fields,
                                           const VtuSettings& settings = {}) {
   const std::size_t size = positions.size();
@@ -156,11 +174,7 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
       "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
       detail::shortest(settings.time) + "</DataArray>\n";
   for (const VtkNames& names : settings.names) {
-    detail::require(
-        std::any_of(fields.begin(), fields.end(),
-                    [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; }),
-        "hmps: a VTU file has names for the values of ", names.field,
-        ", which is no field of whole numbers in it; name a field that is written too");
+    detail::require_names(names, fields);
     arrays.head += detail::vtk_words(names);
   }
   arrays.head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(size) + "\" NumberOfCells=\"" +

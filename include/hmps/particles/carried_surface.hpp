@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -147,12 +149,14 @@ class CarriedSurface {
       std::vector<Share> shares;
       if (solve(search.points(), point, spacing, radius, found, shares)) return shares;
     }
+    const std::string hint = detail::spacing_hint(search.points(), spacing, 0.5);
     throw InputError(
         detail::message("hmps: point ", p, " of a carried surface, at (", point.transpose(),
                         "), lies further than 8 spacings of ", spacing,
                         " m from particles that span space; check that surface and particles are of one body in "
-                        "one unit, or give a smaller spacing: a wall of one layer carries no surface, nor does a "
-                        "part that supported_particles left out"));
+                        "one unit: a wall of one layer carries no surface, nor does a part that supported_particles "
+                        "or `belongs` left out",
+                        hint));
   }
 
   /// The shares of the particles `found` within `radius`; false where the radius should be larger.

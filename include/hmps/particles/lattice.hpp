@@ -82,7 +82,8 @@ class InsideShape {
     const S distance = static_cast<S>(shape_(x));
     if (is_nan(distance))
       throw InputError(
-          message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+          message("hmps: the shape is NaN at (", x.transpose(),
+                  "); it must have a value in the whole box: is a size negative or NaN, or a direction zero?"));
     return distance;
   }
   const F& shape_;

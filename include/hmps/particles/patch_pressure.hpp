@@ -15,6 +15,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/particles/carried_surface.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/surface_patch.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
@@ -81,17 +82,18 @@ class PatchPressure {
   /// @param patch      see `surface_patch`; a whole surface too
   /// @param spacing    l0 in m
   /// @param belongs    `belongs(i)`: whether particle i is of the body; all are by default
-  /// Throws as `CarriedSurface` and `refine` do, and `InputError` for a patch that faces the particles.
+  /// Throws as `CarriedSurface` and `refine` do, and `InputError` for a spacing far from that of the particles and a
+  /// patch that faces them.
   template <class T, class S, class Belongs = bool (*)(std::size_t)>
   PatchPressure(
       const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch, double spacing,
       const Belongs& belongs = [](std::size_t) { return true; })
-      : PatchPressure(reference, Refined<S>{refine(patch, spacing)}, spacing, belongs) {}
+      : PatchPressure(reference, Refined<S>{refined(reference, patch, spacing)}, spacing, belongs) {}
 
   /// Adds to `f` (N/m3) the force densities of `pressure` (Pa, positive where it presses on the body) at the positions
   /// `x` in m, for particles of the `volume` in m3, a number or a `ScalarView`. Runs in order, so that the result does
   /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite, a volume
-  /// that is not positive, and one number that is not about the cube of the spacing.
+  /// that is not positive, and volumes that are not about the cube of the spacing on average.
   template <class X, PerParticle Vol, class F>
   void add(const VectorView<X, 3>& x, const VectorView<F, 3>& f, double pressure, const Vol& volume) const {
     require_size(f, x.size(), "force densities");
@@ -99,12 +101,14 @@ class PatchPressure {
     detail::require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure,
                     " Pa; give a finite number");
     require_positive(volume, x.size(), "volume", "m3");
-    if constexpr (std::is_arithmetic_v<Vol>) {
+    if (x.size() > 0) {
       constexpr double most = 8;
-      const double share = static_cast<double>(volume) / (spacing_ * spacing_ * spacing_);
-      detail::require(share < most && share > 1 / most, "hmps: a patch presses on particles of ", volume,
-                      " m3, but the cube of their spacing of ", spacing_, " m has ", spacing_ * spacing_ * spacing_,
-                      " m3; give the volume of one particle, behind the pressure");
+      const double mean = detail::mean_of(volume, x.size());
+      const double share = mean / (spacing_ * spacing_ * spacing_);
+      detail::require(share < most && share > 1 / most, "hmps: the `volume` of PatchPressure::add is ", mean,
+                      " m3 a particle, but the cube of the spacing of ", spacing_,
+                      " m that PatchPressure was made with has ", spacing_ * spacing_ * spacing_,
+                      " m3; give the volume of one particle, behind the pressure, and the spacing l0 when it is made");
     }
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());
@@ -135,6 +139,18 @@ class PatchPressure {
   struct Refined {
     SurfaceMesh<S> mesh;
   };
+
+  /// `patch` with edges of a `spacing` (m), which is checked before: of one that is far too short it would make
+  /// millions of triangles.
+  template <class T, class S>
+  [[nodiscard]] static SurfaceMesh<S> refined(const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch,
+                                              double spacing) {
+    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of PatchPressure is ", spacing,
+                    " m; give the particles' positive distance in the reference configuration");
+    require_finite(reference, "the reference position");
+    detail::require_spacing_of(reference, spacing, "PatchPressure");
+    return refine(patch, spacing);
+  }
 
   template <class T, class S, class Belongs>
   PatchPressure(const VectorView<T, 3>& reference, const Refined<S>& fine, double spacing, const Belongs& belongs)

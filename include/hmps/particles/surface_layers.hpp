@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
@@ -110,6 +111,14 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
     for (auto& r : to) r.normalize();
     layer[i] = detail::sees_out<D>(to, directions, limit) ? 1 : 0;
   });
+  if constexpr (!std::is_same_v<Bonded, EveryBond>)
+    if (std::ranges::all_of(layer, [](char outermost) { return outermost != 0; })) {  // a sheet, or nothing is bonded
+      bool any = points.size() < 2;
+      for (std::size_t i = 0; i < points.size() && !any; ++i)
+        for_each(i, [&](Index, const Vector<double, D>&) { any = true; });
+      detail::require(any, "hmps: `bonded` of surface_layers holds for no two of the ", points.size(),
+                      " particles, so that all are outermost; let it hold for particles of one body");
+    }
   std::vector<char> second(points.size(), 0);
   execute(points.size(), [&](std::size_t i) {
     if (layer[i] == 1) return;

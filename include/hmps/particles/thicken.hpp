@@ -17,6 +17,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/particles/support.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -111,7 +112,7 @@ class SiteMap {
 ///
 /// Sites for which `allowed(x)` does not hold stay free, such as a gap to another organ. Returns the new positions; use
 /// `find_weak` to see what is still weak. Throws `InputError` for settings out of range and points that are not on one
-/// lattice.
+/// lattice of the spacing.
 template <class T, int D, class Allowed = AllowEverywhere>
 [[nodiscard]] std::vector<Vector<typename VectorView<T, D>::Scalar, D>> thicken(const VectorView<T, D>& points,
                                                                                 const SupportSettings& settings,
@@ -125,6 +126,7 @@ template <class T, int D, class Allowed = AllowEverywhere>
   detail::require(passes >= 0, "hmps: particles are to be thickened in ", passes,
                   " passes; give a positive number (4 is the default)");
   require_finite(points, "the position");
+  detail::require_spacing_of(points, settings.spacing, "thicken", 1.9);
   std::vector<Vector<S, D>> added;
   if (points.size() == 0) return added;
   Map map(points[0].template cast<double>(), settings);

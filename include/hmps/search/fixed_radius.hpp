@@ -166,9 +166,26 @@ class FixedRadiusSearch {
   Tree tree_;
 };
 
+namespace detail {
+/// Throws `InputError` for a `radius` (m) so large that lists of neighbours would fill the memory, as in another unit:
+/// with more than 4000 neighbours a particle, as many as within ten spacings, and 1e8 of them in all.
+template <class Search, class S>
+void require_listable(const Search& search, S radius) {
+  constexpr std::size_t most_samples = 64;
+  const std::size_t n = search.points().size(), samples = std::min(n, most_samples);
+  double sum = 0;
+  for (std::size_t k = 0; k < samples; ++k)
+    sum += static_cast<double>(search.count(search.points()[k * n / samples], radius)) - 1;
+  const double mean = samples > 0 ? sum / static_cast<double>(samples) : 0;
+  require(mean < 4000 || mean * static_cast<double>(n) < 1e8, "hmps: within the search radius of ", radius,
+          " m, a particle has ", mean, " neighbours, and all ", n, " particles ", mean * static_cast<double>(n),
+          "; give a radius of a few spacings, in the unit of the positions");
+}
+}  // namespace detail
+
 /// Finds all neighbours within `radius` (m, closed ball) of every particle of `search`. The lists are symmetric: each
-/// distance is measured once, from the lower index. Throws `InputError` if the radius is not positive and if particles
-/// coincide.
+/// distance is measured once, from the lower index. Throws `InputError` if the radius is not positive or so large that
+/// the lists would fill the memory, and if particles coincide.
 template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const FixedRadiusSearch<T, D>& search,
                                             typename VectorView<T, D>::Scalar radius, const E& execute = {}) {
@@ -176,6 +193,7 @@ template <class T, int D, Executor E = Serial>
                   "; it must be a positive number of metres");
   const VectorView<T, D>& points = search.points();
   const std::size_t n = points.size();
+  detail::require_listable(search, radius);
   std::vector<std::vector<Index>> above(n);
   execute(n, [&](std::size_t i) {
     std::vector<Index>& found = above[i];

@@ -49,6 +49,16 @@ template <class T, int D>
                  " m that was given: is the spacing ", found, " m?");
 }
 
+/// Throws `InputError` if `spacing` (m), which `what` was given, is not about that of the particles at `points` (m),
+/// within a factor `most`.
+template <class T, int D>
+void require_spacing_of(const VectorView<T, D>& points, double spacing, const char* what, double most = 4) {
+  const double found = nearest_spacing(points);
+  require(found == 0 || (spacing < most * found && found < most * spacing), "hmps: the spacing of ", what, " is ",
+          spacing, " m, but the nearest particles lie ", found,
+          " m apart; give the particle spacing l0, in the unit of the positions");
+}
+
 }  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

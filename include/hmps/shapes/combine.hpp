@@ -11,6 +11,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 
@@ -139,20 +140,21 @@ template <class A, class B, class S>
   return complement(smooth_unite(complement(std::move(a)), std::move(b), radius));
 }
 
-/// The shape moved by `by` metres. Exact if the shape is.
+/// The shape moved by `by` metres. Exact if the shape is. Throws `InputError` unless they are finite.
 template <class A, class S, int D>
 [[nodiscard]] auto translated(A a, const Vector<S, D>& by) {
+  detail::require(detail::all_finite(by), "hmps: a shape is moved by (", by.transpose(), ") m; give finite metres");
   return detail::Combined{[a = std::move(a), by](const auto& x) { return a(Vector<S, D>(x - by)); }};
 }
 
 /// The shape turned by the rotation matrix `rotation` about the point `pivot`. Exact if the shape
-/// is. Throws `InputError` for a matrix that is not orthogonal: use `warped` to scale or shear.
+/// is. Throws `InputError` for a matrix that is not orthogonal or mirrors: use `warped` to scale or shear.
 template <class A, class S, int D>
 [[nodiscard]] auto rotated(A a, const Matrix<S, D>& rotation, const Vector<S, D>& pivot) {
   const Matrix<S, D> excess = rotation * rotation.transpose() - Matrix<S, D>::Identity();
-  detail::require(detail::all_finite(excess) && excess.norm() < S(1e-3),
+  detail::require(detail::all_finite(excess) && excess.norm() < S(1e-3) && determinant(rotation) > S(0),
                   "hmps: a shape is rotated by the matrix (by columns) ", rotation,
-                  ", which is not orthogonal; give a rotation, or use warped");
+                  ", which is not orthogonal or mirrors; give a rotation, or use mirrored or warped");
   return detail::Combined{[a = std::move(a), rotation, pivot](const auto& x) {
     return a(Vector<S, D>(pivot + rotation.transpose() * (x - pivot)));
   }};

@@ -60,7 +60,8 @@ struct Ellipsoid {
     const Vector<S, D> scaled = (x - centre).cwiseQuotient(half_axes);
     const S level = scaled.norm();
     const S slope = scaled.cwiseQuotient(half_axes).norm();
-    return slope > S(0) ? level * (level - S(1)) / slope : -half_axes.minCoeff();
+    return detail::distance_if((half_axes.array() > S(0)).all(),
+                               slope > S(0) ? level * (level - S(1)) / slope : -half_axes.minCoeff());
   }
 };
 

@@ -125,6 +125,16 @@ TEST(StepCauses, BadInputIsRefusedAndNoLimitHasNoCause) {
           .empty());
 }
 
+// It makes trial displacements a thousand times as large.
+TEST(StepCausesMisuse, ASpacingInMillimetresIsRefused) {
+  Cube cube(5e3, 2e-3, 1e12);
+  const auto x = vectors(cube.reference), v = vectors(cube.v);
+  const StableStep found = stable_step(cube.elastic_part, x, v, density, {.spacing = spacing});
+  const NamedForce part{"elastic", cube.elastic_part};
+  EXPECT_THROW((void)stable_step(cube.elastic_part, x, v, density, {.spacing = 1e3 * spacing}), InputError);
+  EXPECT_THROW((void)step_causes(found, x, v, density, {.spacing = 1e3 * spacing}, part), InputError);
+}
+
 TEST(StepCausesMisuse, IsRefused) {
   const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Ones()), v(2, Vector<double, 3>::Zero());
   const auto spring = [](const auto& at, const auto&, const auto& f) {

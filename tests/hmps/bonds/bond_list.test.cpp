@@ -159,4 +159,12 @@ TEST(BondList, OfNoParticlesIsEmpty) {
   EXPECT_EQ(bonds.block_count(), 0u);
 }
 
+TEST(BondList, RefusesARadiusInPerCent) {
+  const auto X = scenes::Scene<3>::spacing;
+  std::vector<hmps::Vector<double, 3>> points;
+  for (int i = 0; i < 64; ++i) points.emplace_back(X * hmps::Vector<double, 3>(i % 4, i / 4 % 4, i / 16));
+  EXPECT_THROW((hmps::BondList<double, 3>(hmps::vectors(points), {.spacing = X, .radius_ratio = 175})),
+               hmps::InputError);
+}
+
 }  // namespace bond_list_test

@@ -142,7 +142,7 @@ void refuse_bad_input() {
         << text(good, {.spacing = spacing});
   for (const double ratio : {0.0, -1.75, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_TRUE(has(text(good, {.spacing = l0, .radius_ratio = ratio}),
-                    "the effective radius over the spacing is " + hmps::detail::message(ratio)))
+                    "the effective radius is " + hmps::detail::message(ratio)))
         << text(good, {.spacing = l0, .radius_ratio = ratio});
 
   P points = good;

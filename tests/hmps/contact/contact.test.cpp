@@ -611,6 +611,9 @@ TEST(Pairs, MayHaveFrictionAndStiffnessOfTheirOwn) {
   EXPECT_EQ(mixed[1], full[1]);
   EXPECT_THROW(forces(rough, {.friction = -0.1}, {}), hmps::InputError);
   EXPECT_THROW(forces(rough, {.friction = std::numeric_limits<double>::quiet_NaN()}, {}), hmps::InputError);
+  EXPECT_THROW(forces(rough, {.friction = 30}, {}), hmps::InputError) << "per cent";
+  EXPECT_EQ(forces(rough, {.friction = std::numeric_limits<double>::infinity()}, {}),
+            forces(rough, {.friction = 1e6}, {}));
 }
 
 TEST(Door, RefusesOrgansOfWhichNoneMayTouch) {
@@ -648,7 +651,9 @@ TEST(Door, RefusesBadInput) {
   refuse({.spacing = 1e-3, .density = 1000, .friction = -0.1});
   refuse({.spacing = 1e-3, .density = 1000, .friction = nan});
   refuse({.spacing = 1e-3, .density = 1000, .damping = -1});
+  refuse({.spacing = 1e-3, .density = 1000, .damping = 30});  // per cent
   refuse({.spacing = 1e-3, .density = 1000, .margin = 0});
+  refuse({.spacing = 1e-3, .density = 1000, .margin = 500});  // micrometres
 
   bodies::Pile<double, 3> pile(0.9);
   Contact contact(with_friction);
@@ -657,6 +662,8 @@ TEST(Door, RefusesBadInput) {
   const auto a = contact.add_organ({.name = "a", .slaves = some, .masters = some, .prescribed = {}});
   const auto b = contact.add_organ({.name = "b", .slaves = overlap, .masters = overlap, .prescribed = {}});
   const auto c = contact.add_organ({.name = "c", .slaves = pile.block.bottom, .masters = {}, .prescribed = {}});
+  EXPECT_THROW(contact.set_friction(30), hmps::InputError) << "per cent";
+  EXPECT_NO_THROW(contact.set_friction(std::numeric_limits<double>::infinity())) << "sticks";
   EXPECT_THROW(contact.add_pair(a, b), hmps::InputError) << "particle 2 is in both";
   EXPECT_THROW(contact.add_pair(a, a), hmps::InputError);
   EXPECT_THROW(contact.add_pair(a, 7), hmps::InputError);
@@ -676,6 +683,24 @@ TEST(Door, RefusesBadInput) {
   Contact stiff({.spacing = 1e-3, .density = 1000, .stiffness = hmps::PenaltyStiffness::fixed(3e12)});
   pile.declare(stiff);
   EXPECT_THROW(pile.apply(stiff, 2e-5), hmps::InputError);
+}
+
+/// Of a ratio that is given as a coefficient a wall does not push.
+TEST(Door, RefusesAPenaltyOfNothing) {
+  bodies::Pile<double, 3> pile(0.9);
+  MetaballContact<double, 3> contact(
+      {.spacing = 1e-3, .density = 1000, .stiffness = hmps::PenaltyStiffness::fixed(0.3)});
+  pile.declare(contact);
+  EXPECT_NE(message_of([&] { pile.apply(contact, dt); }).find("PenaltyStiffness::ratio"), std::string::npos);
+}
+
+/// Its organs are looked up by number.
+TEST(Door, RefusesTheReportOfAnotherContact) {
+  const MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000});
+  hmps::ContactReport<double> report;
+  report.deep = 1;
+  report.lost_in = 5;
+  EXPECT_THROW(contact.check(report), hmps::InputError);
 }
 
 }  // namespace contact_test

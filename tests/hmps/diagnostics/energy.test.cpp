@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "hmps/analysis/probed_scene.hpp"
@@ -12,6 +13,7 @@
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/laws/neo_hookean.hpp"
 #include "hmps/laws/saint_venant_kirchhoff.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/time/symplectic_euler.hpp"
@@ -157,6 +159,23 @@ TEST(Energy, FreeVibrationKeepsItToTheFirstOrderOfTheStep) {
   const double coarse = deviation(200), fine = deviation(400);
   EXPECT_LT(coarse, 0.2);
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.1);
+}
+
+TEST(Energy, RefusesALawOrAModulusThatIsNone) {
+  std::vector<Vector<double, 3>> x;
+  for (int i = 0; i < 27; ++i) x.emplace_back(spacing * Vector<double, 3>(i % 3, i / 3 % 3, i / 9));
+  const std::vector<Matrix<double, 3>> F(x.size(), Matrix<double, 3>::Identity());
+  const BondList<double, 3> bonds(vectors(x), {.spacing = spacing});
+  const double volume = spacing * spacing * spacing;
+  EXPECT_THROW((void)strain_energy(matrices(F), NeoHookean<>{-1, 1e5}, volume), InputError);
+  std::vector<double> moduli(x.size(), 1e3);
+  for (const double bad : {-1e3, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    moduli[5] = bad;
+    EXPECT_THROW((void)artificial_energy(bonds, vectors(x), matrices(F), bad, volume), InputError);
+    EXPECT_THROW((void)artificial_energy(bonds, vectors(x), matrices(F), scalars(moduli), volume), InputError);
+    EXPECT_THROW((void)mean_dilatation_energy(bonds, matrices(F), bad, volume), InputError);
+    EXPECT_THROW((void)mean_dilatation_energy(bonds, matrices(F), scalars(moduli), volume), InputError);
+  }
 }
 
 }  // namespace energy_test

@@ -51,6 +51,8 @@ TYPED_TEST(MomentumIn, PlaneHasOneComponentOfSpin) {
 TEST(Momentum, BadInputIsRefused) {
   std::vector<Vector<double, 2>> x(3, Vector<double, 2>::Zero()), few(2, Vector<double, 2>::Zero());
   EXPECT_THROW((void)angular_momentum(vectors(x), vectors(few), 1000.0, 1.0), InputError);
+  const Vector<double, 2> nowhere(std::numeric_limits<double>::quiet_NaN(), 0);
+  EXPECT_THROW((void)angular_momentum(vectors(x), vectors(x), 1000.0, 1.0, nowhere), InputError);
   EXPECT_THROW((void)linear_momentum(vectors(x), 0.0, 1.0), InputError);
   EXPECT_THROW((void)linear_momentum(vectors(x), 1000.0, -1.0), InputError);
 }

@@ -107,6 +107,7 @@ TEST(Stress, ABrokenParticleIsNamed) {
   const auto text = hmps_test::message_of<StateError>([&] { cauchy_stresses(matrices(F), law, matrices(stress)); });
   EXPECT_NE(text.find("the Cauchy stress of particle 1"), std::string::npos) << text;
   EXPECT_THROW(cauchy_stresses(matrices(F), law, matrices(few)), InputError);
+  EXPECT_THROW(cauchy_stresses(matrices(F), NeoHookean<double>{-mu, kappa}, matrices(stress)), InputError);
   EXPECT_THROW(cauchy_stresses(matrices(F), law, matrices(F)), InputError);
 }
 

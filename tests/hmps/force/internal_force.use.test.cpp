@@ -364,6 +364,8 @@ TEST(InternalForce, RefusesAnEnergyOfVolumesThatAreNone) {
   EXPECT_NO_THROW((void)force.energy(hmps::vectors(scene.x), l0 * l0 * l0));
   for (const double volume : {l0, l0 * l0, 1e9 * l0 * l0 * l0, 1e-3 * l0 * l0 * l0})
     EXPECT_TRUE(has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), volume); }), "give l0^3")) << volume;
+  const std::vector<double> in_mm3(scene.x.size(), 1e9 * l0 * l0 * l0);
+  EXPECT_TRUE(has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), hmps::scalars(in_mm3)); }), "give l0^3"));
 }
 
 struct Bursting {

@@ -166,6 +166,8 @@ TEST(Pressure, RefusesBadInput) {
   EXPECT_NE(text([&] { top.add(F, f, 1.0); }).find(hmps::detail::message("of particle ", last, " is zero")),
             std::string::npos);
   s.deform(Tensor::Identity());
+  for (const double bad : {0.0, -volume, l0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW((void)top.area(bad), hmps::InputError) << bad;
   EXPECT_THROW(top.add(F.part(0, 3), f, 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f.part(0, 3), 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);

@@ -188,4 +188,25 @@ TEST(ControlRegionMisuse, IsRefused) {
   EXPECT_THROW(moving.place(hmps::vectors(x), hmps::vectors(v), 1), hmps::InputError);
 }
 
+/// A Pose is rigid by its meaning. What is not may be a lambda.
+TEST(ControlRegion, RefusesAPoseThatIsNoRotation) {
+  using V = Vector<double, 3>;
+  std::vector<V> X(3, V(1, 2, 3)), x = X, v(3, V::Zero());
+  const auto reference = hmps::vectors(std::as_const(X));
+  hmps::Matrix<double, 3> sheared = hmps::Matrix<double, 3>::Identity();
+  sheared(0, 1) = 0.3;
+  const hmps::Matrix<double, 3> whole = hmps::Matrix<double, 3>::Identity();
+  for (const hmps::Matrix<double, 3>& matrix : {hmps::Matrix<double, 3>(0 * whole), hmps::Matrix<double, 3>(2 * whole),
+                                                hmps::Matrix<double, 3>(-whole), sheared}) {
+    const ControlRegion<double, 3> region({1}, reference,
+                                          [&](double) { return hmps::Pose<double, 3>{.rotation = matrix}; });
+    EXPECT_THROW(region.prescribe(hmps::vectors(x), hmps::vectors(v), 0, 1e-3), hmps::InputError);
+    EXPECT_THROW(region.place(hmps::vectors(x), hmps::vectors(v), 0), hmps::InputError);
+    EXPECT_EQ(x, X);
+  }
+  const ControlRegion squeezed(std::vector<Index>{1}, reference,
+                               [&](double) { return [&](const V& place) { return V(sheared * place); }; });
+  EXPECT_NO_THROW(squeezed.prescribe(hmps::vectors(x), hmps::vectors(v), 0, 1e-3));
+}
+
 }  // namespace control_region_test

@@ -93,4 +93,13 @@ TEST(KeyframesOfATable, RefuseAScaleOfZero) {
     expect_contains(message_of([&] { (void)hmps::track(table, "x", scale); }), "scaled by");
 }
 
+TEST(Csv, RefusesAHeaderOfNumbersAndATimeAsItsOwnValue) {
+  EXPECT_THROW((void)hmps::parse_csv("0,1\n1,3\n2,4\n"), hmps::InputError) << "its first row would be lost";
+  EXPECT_NO_THROW((void)hmps::parse_csv("t,1\n1,3\n"));
+  const auto table = hmps::parse_csv("t,x\n0,1\n1,3\n");
+  EXPECT_THROW((void)hmps::track(table, "t"), hmps::InputError);
+  EXPECT_THROW((void)hmps::track(table, "x", 1, "x"), hmps::InputError);
+  EXPECT_NO_THROW((void)hmps::track(table, "x"));
+}
+
 }  // namespace csv_test

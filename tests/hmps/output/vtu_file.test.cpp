@@ -139,6 +139,10 @@ TEST(VtuFileMisuse, IsRefused) {
   for (const VtkField& field : {VtkField{"a", 0, "Float32", ""}, VtkField{"a", -1, "Float32", ""},
                                 VtkField{"a", 1, "Float16", std::string(8, 'a')}})
     EXPECT_THROW(write_vtu(path, vectors(x), {field}), InputError) << field.components;
+  const std::vector<int> organ(x.size(), 2);
+  const std::vector<VtkField> fields{vtk_field("organ", scalars(organ))};
+  EXPECT_THROW(write_vtu(path, vectors(x), fields, {.names = {{"organ", {"tongue", "palate"}}}}), InputError);
+  EXPECT_NO_THROW(write_vtu(folder.path() / "named.vtu", vectors(x), fields, {.names = {{"organ", {"a", "b", "c"}}}}));
   VtuSeries frames(folder.path() / "run.pvd");
   frames.add(1, vectors(x));
   EXPECT_THROW(frames.add(1, vectors(x)), InputError);

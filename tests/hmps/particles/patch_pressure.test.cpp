@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -121,6 +122,35 @@ TEST(PatchPressure, RefusesWhatDoesNotFit) {
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), particle, pressure), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), std::numeric_limits<double>::infinity(), particle),
                InputError);
+}
+
+std::string said_of(const auto& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+// Far too short a spacing made millions of triangles first, and the error then asked for a shorter one.
+TEST(PatchPressure, NamesItsSpacingWhereItDoesNotFit) {
+  const Body body = brick();
+  for (const double times : {1e-5, 0.01, 0.1, 10., 100.}) {
+    const auto said = said_of([&] { (void)PatchPressure(vectors(body.x), body.mesh, times * l0); });
+    EXPECT_NE(said.find("the spacing of PatchPressure is"), std::string::npos) << said;
+    EXPECT_NE(said.find("0.002 m apart"), std::string::npos) << said;
+  }
+}
+
+TEST(PatchPressure, NamesTheVolumeThatDoesNotFit) {
+  Body body = brick();
+  const PatchPressure load(vectors(body.x), body.mesh, l0);
+  const std::vector<double> whole(body.x.size(), 480 * particle);
+  for (const auto& said : {said_of([&] { load.add(vectors(body.x), vectors(body.f), pressure, 480 * particle); }),
+                           said_of([&] { load.add(vectors(body.x), vectors(body.f), pressure, scalars(whole)); })}) {
+    EXPECT_NE(said.find("the `volume` of PatchPressure::add"), std::string::npos) << said;
+  }
 }
 
 // A pressure on it would pull.

@@ -146,6 +146,8 @@ TEST(SurfaceLayers, RefuseAnotherUnitAndAOneSidedPredicate) {
     EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), spacing), hmps::InputError) << spacing;
   const auto one_sided = [](std::size_t i, std::size_t j) { return i < j; };
   EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), 1.0, one_sided), hmps::InputError);
+  const auto never = [](std::size_t, std::size_t) { return false; };
+  EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), 1.0, never), hmps::InputError);
 }
 
 }  // namespace surface_layers_test

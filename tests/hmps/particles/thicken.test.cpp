@@ -70,6 +70,8 @@ TYPED_TEST(Thicken, RefusesCloudsThatAreNoLattice) {
   EXPECT_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1}), hmps::InputError);
   points[2] = V(1, 1);
   EXPECT_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 0}), hmps::InputError);
+  EXPECT_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = S(0.5)}), hmps::InputError)
+      << "each second site of a lattice that is too fine";
   EXPECT_NO_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1}));
 }
 

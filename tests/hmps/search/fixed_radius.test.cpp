@@ -179,4 +179,12 @@ TEST(FixedRadiusSearchMisuse, IsRefused) {
   EXPECT_THROW((void)search.nearest(2), hmps::InputError);
 }
 
+/// All pairs of 20,000 particles would take gigabytes.
+TEST(FindNeighbours, RefusesARadiusInAnotherUnit) {
+  std::vector<hmps::Vector<double, 3>> points;
+  for (int i = 0; i < 20000; ++i) points.emplace_back(1e-3 * i, 0, 0);
+  EXPECT_THROW((void)hmps::find_neighbours(hmps::vectors(points), 100.0), hmps::InputError);
+  EXPECT_EQ(hmps::find_neighbours(hmps::vectors(points), 1.5e-3).neighbour.size(), 2 * 19999U);
+}
+
 }  // namespace fixed_radius_test

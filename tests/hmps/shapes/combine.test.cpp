@@ -146,6 +146,11 @@ TEST(CombineMisuse, IsRefused) {
   for (const double radius : {-0.1, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW((void)hmps::smooth_unite(ball, ball, radius), hmps::InputError);
   EXPECT_THROW((void)hmps::rotated(ball, Matrix<double, 3>(2 * Matrix<double, 3>::Identity())), hmps::InputError);
+  Matrix<double, 3> mirror = Matrix<double, 3>::Identity();
+  mirror(0, 0) = -1;
+  EXPECT_THROW((void)hmps::rotated(ball, mirror), hmps::InputError);
+  for (const double beyond : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW((void)hmps::translated(ball, V(beyond, 0, 0)), hmps::InputError);
   for (const int axis : {-1, 3}) EXPECT_THROW((void)hmps::mirrored(ball, axis), hmps::InputError);
 }
 

@@ -164,6 +164,7 @@ TEST(Shapes, OfNegativeSizeAreNaN) {
     EXPECT_TRUE(std::isnan((hmps::RoundCone<double, 3>{origin, one, 1, -1}(x))));
     EXPECT_TRUE(std::isnan((hmps::Cylinder<double, 3>{origin, one, -1}(x))));
     EXPECT_TRUE(std::isnan((hmps::Torus<double>{origin, 1, -1}(x))));
+    EXPECT_TRUE(std::isnan((hmps::Ellipsoid<double, 3>{origin, V(1, 1, -1)}(x))));
   }
   EXPECT_EQ((hmps::Ball<double, 3>{origin, 0}(one)), std::sqrt(3.0));
 }
