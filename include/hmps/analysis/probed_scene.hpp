@@ -14,7 +14,6 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
-#include "hmps/core/trial.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -49,7 +48,7 @@ struct Direction {
         damping(n, Vector<double, D>::Zero()) {}
 };
 
-/// The linearised force, evaluated in a `Trial`, with the vector algebra for the search of its largest eigenvalue.
+/// The linearised force, with the vector algebra for the search of its largest eigenvalue.
 template <class Force, class T, int D, class Rho, class E>
 class ProbedScene {
  public:
@@ -158,7 +157,6 @@ class ProbedScene {
     return std::sqrt(static_cast<double>(at_particle(density_, i)));
   }
 
-  const Trial trial_;
   Force& force_;
   const Rho& density_;
   const E& execute_;

@@ -16,7 +16,6 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
-#include "hmps/core/trial.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/nearest_spacing.hpp"
 
@@ -127,7 +126,6 @@ void require_response(Force& force, const VectorView<X, D>& x, const VectorView<
   for (std::size_t i = 0; i < off.size(); ++i)
     for (int c = 0; c < D; ++c)
       off[i][c] = x(i, c) + static_cast<Place>(1e-3 * spacing * std::sin(1.7 * static_cast<double>(i) + 2.3 * c));
-  const Trial trial;
   force(VectorView<const Place, D>(vectors(off)), v, f);
   bool written = false;
   for (std::size_t i = 0; i < f.size(); ++i)

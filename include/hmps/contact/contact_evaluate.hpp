@@ -208,7 +208,6 @@ ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const 
   lists_.organs().require_particles(x.size());
   require_scene(x);
   set_laws(dt);
-  if constexpr (has_spring) kept_.settle(history_, motion_);
   if (lists_.update(x, F, execute)) resize();
   history_.next_call();
   const std::size_t row_count = lists_.active().rows().size() - 1;

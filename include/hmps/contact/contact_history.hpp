@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -29,13 +28,6 @@ class ContactHistory {
  public:
   /// For `size` pairs of a slave and a wall.
   void resize(std::size_t size) { entries_.resize(size); }
-
-  /// Becomes `earlier` again, for as many pairs as there are now.
-  void restore(ContactHistory&& earlier) {
-    const std::size_t size = entries_.size();
-    *this = std::move(earlier);
-    entries_.resize(size);
-  }
 
   /// Begins a new call. A call without evaluations clears the history.
   void next_call() { ++call_; }

@@ -12,7 +12,6 @@
 
 #include "hmps/contact/contact_history.hpp"
 #include "hmps/contact/contact_settings.hpp"
-#include "hmps/contact/kept_history.hpp"
 #include "hmps/contact/lists/candidates.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
@@ -93,7 +92,6 @@ class MetaballContact {
 
   /// Rebuilds all lists at the next call. Not needed after time steps.
   void refresh() {
-    if constexpr (has_spring) kept_.settle(history_, motion_);
     lists_.refresh();
     history_.next_call();
   }
@@ -283,9 +281,6 @@ class MetaballContact {
   std::vector<S> load_;         // per awake particle: N
   detail::ContactHistory<D, Slip> history_;
   [[no_unique_address]] std::conditional_t<has_spring, detail::ParticleMotion<S, D>, detail::NoSlip> motion_;
-  [[no_unique_address]] std::conditional_t<has_spring, detail::KeptHistory<D, decltype(history_), decltype(motion_)>,
-                                           detail::NothingKept>
-      kept_;
 };
 
 }  // namespace hmps::inline HMPS_ABI

@@ -29,7 +29,7 @@ namespace hmps::inline HMPS_ABI {
 /// lost where contact is lost, by `refresh`, and therefore when a program is stopped and resumed. Evaluating the same
 /// state twice keeps it, but a wall that rotates then seems to stand still, which changes the damping. Contact stores
 /// the positions of all particles of organs for it. What probes a force at displaced positions, as `stable_step` and
-/// `step_causes` do, leaves no trace in the elastic slip; what does so without them makes a `Trial`.
+/// `step_causes` do, moves the elastic slip too: in the middle of a run give them a copy of the contact.
 struct SpringFriction : CorrectedFriction {
   static constexpr bool has_spring = true;
   /// Default of `ContactSettings::damping`. Slaves at the friction limit can excite normal vibrations of a wall,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -112,9 +111,6 @@ class ParticleMotion {
       }
     });
   }
-  /// The positions in m of all particles at the latest call, and back to those of an earlier one.
-  [[nodiscard]] const std::vector<Vector<double, D>>& places() const { return place_; }
-  void restore(std::vector<Vector<double, D>>&& places) { place_ = std::move(places); }
   /// The displacement in m of an active particle.
   [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }
   /// The vector in m from the active particle `from` to `to`.
