@@ -8,6 +8,7 @@
 #include <hmps/particles/support.hpp>
 #include <hmps/particles/thicken.hpp>
 #include <hmps/search/fixed_radius.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -128,16 +129,33 @@ struct Body {
   return body;
 }
 
+/// The organs of fitted particles. The surface that they are fitted to cuts corners between organs, so that some lie in
+/// none: they are of that of the nearest particle.
+[[nodiscard]] inline std::vector<Organ> organs_of(const Anatomy& anatomy, const std::vector<Point>& points) {
+  std::vector<Organ> drawn;
+  for (const Point& x : points) drawn.push_back(anatomy.organ_at(1e3 * x));
+  std::vector<Organ> organ = drawn;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (drawn[i] != Organ::none) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const double squared = (points[j] - points[i]).squaredNorm();
+      if (drawn[j] == Organ::none || squared >= least) continue;
+      least = squared;
+      organ[i] = drawn[j];
+    }
+  }
+  return organ;
+}
+
 /// The fitted particles, but for weakly supported ones.
 [[nodiscard]] inline Body fitted_body(const Anatomy& anatomy, const FittedOrgans& fitted, double spacing) {
   Body body;
   body.points = fitted.particles.positions;
   body.layers = fitted.particles.layers;
   body.layer_spacings = fitted.particles.layer_spacings;
-  for (std::size_t i = 0; i < body.points.size(); ++i) {
-    body.organ.push_back(anatomy.organ_at(1e3 * body.points[i]));
-    body.depth.push_back(static_cast<char>(std::clamp(fitted.depth[i], 0.0, 2.0)));
-  }
+  body.organ = organs_of(anatomy, body.points);
+  for (const double depth : fitted.depth) body.depth.push_back(static_cast<char>(std::clamp(depth, 0.0, 2.0)));
   const hmps::FixedRadiusSearch search(hmps::vectors(body.points));
   std::vector<hmps::Index> nearby;
   body.bond(

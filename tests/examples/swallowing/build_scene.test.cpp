@@ -197,4 +197,18 @@ TEST(BuildScene, GivesEveryRegionOfBothModelsParticles) {
   }
 }
 
+// The surface that particles are fitted to cuts corners between organs.
+TEST(BuildScene, FittedParticlesInNoOrganAreOfThatOfTheNearest) {
+  const swallowing::Anatomy anatomy;
+  const Scene scene = make_scene({.spacing = 2.4e-3, .data = SWALLOWING_DATA});
+  const auto place_of = [&](Organ organ) {
+    const auto at = std::find(scene.organ.begin(), scene.organ.end(), organ) - scene.organ.begin();
+    return scene.reference[static_cast<std::size_t>(at)];
+  };
+  const Point tongue = place_of(Organ::tongue), pharynx = place_of(Organ::pharynx), off(0, 1, 0);  // a metre
+  const auto organ = swallowing::detail::organs_of(anatomy, {off, pharynx, tongue});
+  const bool nearer = (pharynx - off).norm() < (tongue - off).norm();
+  EXPECT_EQ(organ, (std::vector{nearer ? Organ::pharynx : Organ::tongue, Organ::pharynx, Organ::tongue}));
+}
+
 }  // namespace build_scene_test
