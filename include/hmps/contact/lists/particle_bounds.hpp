@@ -67,7 +67,7 @@ class ParticleBounds {
   }
   /// The square in m2 of how far number `i` has deviated within `calls` calls. It is particle `index` of the view `x`.
   template <class X>
-  [[nodiscard]] HMPS_INLINE S deviation_squared(const X& x, Index index, std::size_t i, std::size_t calls) const {
+  [[nodiscard]] HMPS_INLINE S deviation_squared(const X& x, Index index, std::size_t i, S calls) const {
     return (place_of(x, index) - expected(i, calls)).squaredNorm();
   }
   /// The largest drift in m per call.
@@ -104,9 +104,7 @@ class ParticleBounds {
     bool is_late;
     Index flat;  // the first of those without an inverse of F
   };
-  [[nodiscard]] HMPS_INLINE Point expected(std::size_t i, std::size_t calls) const {
-    return place_[i] + static_cast<S>(calls) * drift_[i];
-  }
+  [[nodiscard]] HMPS_INLINE Point expected(std::size_t i, S calls) const { return place_[i] + calls * drift_[i]; }
   void move_to(std::size_t i, const Point& place, bool is_first, const CheckInterval& interval);
   [[nodiscard]] S update_metric(std::size_t i, const Matrix<Lanes<S>, D>& A, std::size_t lane);
   template <class Gradients>
@@ -141,8 +139,8 @@ HMPS_INLINE void ParticleBounds<S, D>::move_to(std::size_t i, const Point& place
     deviation_[i] = std::numeric_limits<S>::max();
     drift_[i].setZero();
   } else {
-    deviation_[i] =
-        least_motion * spacing_ + S(2) * interval.template ratio<S>() * (place - expected(i, interval.since)).norm();
+    deviation_[i] = least_motion * spacing_ +
+                    S(2) * interval.template ratio<S>() * (place - expected(i, static_cast<S>(interval.since))).norm();
     drift_[i] = (place - place_[i]) / static_cast<S>(std::max<std::size_t>(interval.since, 1));
   }
   place_[i] = place;

@@ -130,14 +130,16 @@ template <class X, class E>
 bool SleepingRows<S, D, Kernel>::watch(const Source& source, const X& x, std::size_t calls, const E& execute) {
   const std::vector<Index>& particle = source.organs.particle();
   const std::vector<S>& bound = source.particles.deviation();
-  const auto deviation_squared = [&](std::size_t i) {
-    return source.particles.deviation_squared(x, particle[i], i, calls);
+  const S since = static_cast<S>(calls);
+  const auto deviation_squared = [&, &particles = source.particles](std::size_t i) {
+    return particles.deviation_squared(x, particle[i], i, since);
   };
   execute(chunks_.size(), [&](std::size_t q) {
     Chunk found{0, false};
-    for (std::size_t i = q * chunk; i < std::min(particle.size(), (q + 1) * chunk); ++i)
+    const std::size_t begin = q * chunk, end = std::min(particle.size(), begin + chunk);
+    for (std::size_t i = begin; i < end; ++i)
       if (const S squared = deviation_squared(i); !(squared <= allowance_[i])) {
-        exceeding_[q * chunk + found.exceeding++] = static_cast<Index>(i);
+        exceeding_[begin + found.exceeding++] = static_cast<Index>(i);
         found.too_far = found.too_far || !(squared <= bound[i] * bound[i]);
       }
     chunks_[q] = found;

@@ -42,7 +42,8 @@ struct Particles {
         hmps::Serial{});
   }
   [[nodiscard]] double deviation(std::size_t i, std::size_t calls) const {
-    return std::sqrt(static_cast<double>(bounds.deviation_squared(hmps::vectors(x), particle[i], i, calls)));
+    return std::sqrt(
+        static_cast<double>(bounds.deviation_squared(hmps::vectors(x), particle[i], i, static_cast<S>(calls))));
   }
 };
 

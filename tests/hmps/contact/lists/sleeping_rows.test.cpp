@@ -152,7 +152,7 @@ TEST(SleepingRows, WakeByEachOfTheirParticles) {
       if (by[slave].count(slave) &&
           (rows.pile.x[slave] - rows.pile.x[j]).norm() < (Ball::radius + 0.25) * l0) {  // kept
         EXPECT_TRUE(by[j].count(slave)) << gap << ": " << slave << " by " << j;
-        woken += rows.awake().count(slave) ? 0 : 1;
+        woken += rows.awake().count(slave) ? 0u : 1u;
       }
   }
   EXPECT_GT(woken, 0U);
@@ -173,7 +173,7 @@ TEST(SleepingRows, WakeOneAfterAnother) {
     EXPECT_EQ(rows.awake(&after), at_once.awake(&all)) << gap;
     EXPECT_EQ(after, all);
     EXPECT_EQ(rows.sleeping.woken(), after - before) << "candidates of rows that woke";
-    later += rows.sleeping.woken() > woken ? 1 : 0;
+    later += rows.sleeping.woken() > woken ? 1u : 0u;
     ASSERT_TRUE(rows.watch(3, i, 0.1 * bound));
     EXPECT_EQ(rows.sleeping.woken(), after - before) << "they stay awake";
     (void)rows.sleeping.put_to_sleep(rows.source(), {8, 8}, rows.loops);
