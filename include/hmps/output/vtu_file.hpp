@@ -131,9 +131,6 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
   }
 }
 
-}  // namespace detail
-
-namespace detail {
 /// Throws `InputError` unless `names` are those of a field of whole numbers among `fields`, a name for each.
 inline void require_names(const VtkNames& names, std::span<const VtkField> fields) {
   const auto found = std::ranges::find_if(
