@@ -27,13 +27,14 @@ namespace hmps::inline HMPS_ABI {
 /// and for loads on the surface: interpolation of the particles' positions by moving least squares of first order
 /// (Lancaster and Salkauskas 1981; Belytschko, Lu and Gu 1994), with coefficients of the reference configuration,
 ///
-///     y = sum_k phi_k x_k,    phi_k = w_k (1, X_k - Y) M^-1 (1, 0),    M = sum_k w_k (1, X_k - Y) (x) (1, X_k - Y)
+///     y = sum_k phi_k x_k,    phi_k = w_k / sum w (1 + (X_k - m) . C^-1 (Y - m))
 ///
-/// over the particles within a radius of the point's reference place Y, w = (1 - (|X - Y| / radius)^2)^2. The radius is
-/// two spacings, or more where particles are few: a spacing beyond the nearest one at least, and so large that the
-/// particles span space well. Since sum phi = 1 and sum phi X = Y, every affine motion of the particles is
-/// followed exactly, and where the motion has second derivatives of size c (1/m) the error is at most
-/// c / 2 sum |phi_k| |X_k - Y|^2. Points may lie outside of the particles, as surfaces do by about half a spacing.
+/// with the mean m and the covariance C, both weighted by w, of the particles X_k within a radius of the point's
+/// reference place Y; w = (1 - (|X - Y| / radius)^2)^2. The radius is two spacings, or more where particles are few: a
+/// spacing beyond the nearest one at least, and so large that the particles span space well. Since sum phi = 1 and
+/// sum phi X = Y, every affine motion of the particles is followed exactly, and where the motion has second derivatives
+/// of size c (1/m) the error is at most c / 2 sum |phi_k| |X_k - Y|^2. Points may lie outside of the particles, as
+/// surfaces do by about half a spacing.
 ///
 ///     const CarriedSurface carried(vectors(reference), vectors(mesh.vertices), l0);
 ///     std::vector<Vector<double, 3>> vertices(mesh.vertices.size());
@@ -163,33 +164,38 @@ class CarriedSurface {
   template <class T>
   [[nodiscard]] static bool solve(const VectorView<T, D>& reference, const Vector<double, D>& point, double spacing,
                                   double radius, const std::vector<Index>& found, std::vector<Share>& shares) {
-    using Moments = Eigen::Matrix<double, D + 1, D + 1>;
-    using Monomials = Eigen::Matrix<double, D + 1, 1>;
-    const auto monomials = [&](Index k) {
-      Monomials m;
-      m[0] = 1;
-      for (int c = 0; c < D; ++c) m[c + 1] = (static_cast<double>(reference(k, c)) - point[c]) / spacing;
-      return m;
+    // All about the point, in spacings: the particles' mean and the covariance of their places.
+    using Offset = Eigen::Matrix<double, D, 1>;
+    const auto offset = [&](Index k) {
+      Offset q;
+      for (int c = 0; c < D; ++c) q[c] = (static_cast<double>(reference(k, c)) - point[c]) / spacing;
+      return q;
     };
-    Moments M = Moments::Zero();
-    double nearest = radius;
+    double sum = 0, nearest = radius;
+    Offset mean = Offset::Zero();
+    Eigen::Matrix<double, D, D> covariance = Eigen::Matrix<double, D, D>::Zero();
     for (const Index k : found) {
-      const Monomials m = monomials(k);
-      const double distance = spacing * m.template tail<D>().norm();
+      const Offset q = offset(k);
+      const double distance = spacing * q.norm();
       nearest = std::min(nearest, distance);
       shares.push_back({k, weight(distance / radius), 0});
-      M += shares.back().weight * m * m.transpose();
+      const double w = shares.back().weight;
+      sum += w;
+      mean += w * q;
+      covariance += w * q * q.transpose();
     }
     if (found.size() <= D || nearest + spacing > radius) return false;
-    // How well they span space: the least spread of the particles about their own middle, in spacings squared.
-    const Eigen::Matrix<double, D, 1> middle = M.template block<D, 1>(1, 0) / M(0, 0);
+    mean /= sum;
+    covariance = (covariance / sum - mean * mean.transpose()).eval();
+    // How well they span space: the least spread about their mean.
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spread;
-    spread.computeDirect(M.template block<D, D>(1, 1) / M(0, 0) - middle * middle.transpose(), Eigen::EigenvaluesOnly);
+    spread.computeDirect(covariance, Eigen::EigenvaluesOnly);
     if (spread.eigenvalues()[0] < least_spread) return false;
-    const Monomials factor = M.ldlt().solve(Monomials(Monomials::Unit(0)));
+    // The plane of regression through the particles' values, read at the point.
+    const Offset slope = covariance.inverse() * mean;
     for (Share& share : shares) {
-      share.mean = share.weight / M(0, 0);
-      share.weight *= factor.dot(monomials(share.particle));
+      share.mean = share.weight / sum;
+      share.weight = share.mean * (1 - slope.dot(offset(share.particle) - mean));
     }
     return true;
   }
