@@ -26,6 +26,7 @@
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/contact/contact.hpp"
+#include "hmps/contact/contact_checkpoint.hpp"
 #include "hmps/contact/contact_evaluate.hpp"
 #include "hmps/contact/contact_forces.hpp"
 #include "hmps/contact/contact_history.hpp"

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -46,7 +52,49 @@ class ContactHistory {
   /// The elastic slip of entry `k`, which touches in this call by the function above.
   [[nodiscard]] Slip& slip(std::size_t k) { return entries_[k].slip; }
 
+  /// Appends what is known of the entries that touched in the latest call: number, `outward`, elastic slip.
+  void append_to(std::vector<double>& numbers) const {
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const Entry& entry = entries_[k];
+      if (entry.call != call_) continue;
+      numbers.push_back(static_cast<double>(k));
+      for (int c = 0; c < D; ++c) numbers.push_back(static_cast<double>(entry.outward[c]));
+      if constexpr (has_slip)
+        for (int c = 0; c < D; ++c) numbers.push_back(static_cast<double>(entry.slip.value[c]));
+    }
+  }
+  /// Replaces the history of `size` entries by what `append_to` wrote. Throws `InputError` for other numbers, and
+  /// leaves the history as it was then.
+  void restore(std::span<const double> numbers, std::size_t size) {
+    constexpr std::size_t width = 1 + D + (has_slip ? D : 0);
+    const auto require_history = [](bool holds) {
+      require(holds, "hmps: these numbers are no history of a contact with this law of friction; give restore_history "
+                     "what history() returned, all of it and unchanged");
+    };
+    require_history(numbers.size() % width == 0);
+    std::vector<Entry> entries(size);
+    double next = 0;
+    for (std::size_t at = 0; at < numbers.size(); at += width) {
+      const double k = numbers[at];
+      require_history(k >= next && k < static_cast<double>(size) && k == std::floor(k));
+      next = k + 1;
+      Entry& entry = entries[static_cast<std::size_t>(k)];
+      entry.call = call_;
+      for (std::size_t c = 0; c < width - 1; ++c) require_history(is_finite(numbers[at + 1 + c]));
+      for (std::size_t c = 0; c < D; ++c) {
+        entry.outward[static_cast<int>(c)] = static_cast<float>(numbers[at + 1 + c]);
+        if constexpr (has_slip) {
+          using S = std::remove_cvref_t<decltype(entry.slip.value[0])>;
+          entry.slip.value[static_cast<int>(c)] = static_cast<S>(numbers[at + 1 + D + c]);
+        }
+      }
+      if constexpr (has_slip) entry.slip.starts = false;
+    }
+    entries_ = std::move(entries);
+  }
+
  private:
+  static constexpr bool has_slip = !std::is_same_v<Slip, NoSlip>;
   struct Entry {
     Vector<float, D> outward;
     std::uint32_t call = 0;  // the call in which it last touched

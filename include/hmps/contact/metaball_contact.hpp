@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -95,6 +96,14 @@ class MetaballContact {
     lists_.refresh();
     history_.next_call();
   }
+
+  /// What contact remembers between calls, as numbers that a double represents exactly: on which side of a wall each
+  /// slave in contact is and, for `SpringFriction`, its elastic slip and the positions of the latest call. Store it in
+  /// a checkpoint, or before calls that only probe the force.
+  [[nodiscard]] std::vector<double> history() const;
+  /// Replaces the history by one that `history` returned, of a contact with the same settings, organs and pairs in the
+  /// same order: the next call returns the same bits as it would have there. Throws `InputError` for other numbers.
+  void restore_history(std::span<const double> history);
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
   /// Sets mu of the pairs without a friction coefficient of their own (`PairSettings::friction`).

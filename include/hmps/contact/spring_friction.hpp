@@ -26,10 +26,12 @@ namespace hmps::inline HMPS_ABI {
 /// and slide below the limit all the same; see docs/theory.md.
 ///
 /// Elastic slip follows the positions that contact receives, whoever moves them. It rotates with the masters. It is
-/// lost where contact is lost, by `refresh`, and therefore when a program is stopped and resumed. Evaluating the same
-/// state twice keeps it, but a wall that rotates then seems to stand still, which changes the damping. Contact stores
-/// the positions of all particles of organs for it. What probes a force at displaced positions, as `stable_step` and
-/// `step_causes` do, moves the elastic slip too: in the middle of a run give them a copy of the contact.
+/// lost where contact is lost, and by `refresh`. Evaluating the same state twice keeps it, but a wall that rotates then
+/// seems to stand still, which changes the damping. Contact stores the positions of all particles of organs for it.
+///
+/// A program that is stopped and resumed stores `MetaballContact::history` with its state. What probes a force at
+/// displaced positions, as `stable_step` and `step_causes` do, moves the elastic slip too: in the middle of a run
+/// restore the history afterwards.
 struct SpringFriction : CorrectedFriction {
   static constexpr bool has_spring = true;
   /// Default of `ContactSettings::damping`. Slaves at the friction limit can excite normal vibrations of a wall,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -111,6 +112,10 @@ class ParticleMotion {
       }
     });
   }
+  /// The positions in m of all particles at the latest call; none before the first.
+  [[nodiscard]] const std::vector<Vector<double, D>>& places() const { return place_; }
+  /// Takes `places` for those of the latest call.
+  void restore(std::vector<Vector<double, D>> places) { place_ = std::move(places); }
   /// The displacement in m of an active particle.
   [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }
   /// The vector in m from the active particle `from` to `to`.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "bodies.hpp"
@@ -140,6 +141,84 @@ TEST(Sticking, SlidesAtTheLimit) {
   EXPECT_EQ(scene.pile.apply(scene.contact, dt).sticking, scene.pile.apply(scene.contact, dt).contacts);
   const Point force = stuck - scene.pushed();
   EXPECT_NEAR(-force[0], stuck[2], 0.1 * stuck[2]);
+}
+
+/// A block that slides and sticks on a shaken plate, stopped and resumed in a new contact.
+TEST(Sticking, ResumesToTheSameBits) {
+  const hmps::ContactSettings settings{.spacing = l0, .density = density, .friction = 0.3};
+  bodies::Pile<double, 3> pile(1.1, l0);
+  pile.shake(0.05, 0.03, 4);
+  Contact contact(settings), resumed(settings);
+  pile.declare(contact);
+  pile.declare(resumed);
+  const auto step = [&] {
+    for (const Index i : pile.block.all) pile.x[i] += Point(2e-7, 1e-7, -4e-6);
+  };
+  for (int n = 0; n < 30; ++n) step(), pile.apply(contact, dt);
+  const std::vector<double> checkpoint = contact.history();
+  resumed.restore_history(checkpoint);
+  EXPECT_EQ(resumed.history(), checkpoint);
+  Contact fresh(settings);
+  pile.declare(fresh);
+  for (int n = 0; n < 30; ++n) {
+    step();
+    const auto report = pile.apply(contact, dt);
+    EXPECT_GT(report.sticking, 0U);
+    const auto forces = pile.f;
+    pile.apply(resumed, dt);
+    ASSERT_EQ(forces, pile.f) << "step " << n;
+    pile.apply(fresh, dt);
+    EXPECT_NE(forces, pile.f) << "without the history it is another force";
+  }
+}
+
+/// As `stable_step` does: the force at displaced positions, in the middle of a run.
+TEST(Sticking, ForgetsAProbe) {
+  Shoved scene;
+  scene.pile.apply(scene.contact, dt);
+  const auto before = scene.pile.f;
+  const auto x = scene.pile.x;
+  const auto probe = [&] {
+    for (const Index i : scene.pile.block.all) scene.pile.x[i] += Point(0.2, -0.1, 0) * l0;
+    scene.pile.apply(scene.contact, dt);
+    scene.pile.x = x;
+  };
+  const std::vector<double> history = scene.contact.history();
+  probe();
+  scene.contact.restore_history(history);
+  scene.pile.apply(scene.contact, dt);
+  EXPECT_EQ(before, scene.pile.f);
+  probe();
+  scene.pile.apply(scene.contact, dt);
+  EXPECT_NE(before, scene.pile.f);
+}
+
+TEST(Sticking, RejectsWhatIsNoHistory) {
+  Shoved scene;
+  const std::vector<double> history = scene.contact.history();
+  const auto fails = [&](std::vector<double> numbers, const char* with) {
+    try {
+      scene.contact.restore_history(numbers);
+      ADD_FAILURE() << "no error with " << with;
+    } catch (const hmps::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(with), std::string::npos) << error.what();
+    }
+  };
+  fails({}, "give restore_history what history() returned");
+  auto cut = history, other = history, moved = history, unsorted = history;
+  cut.pop_back();
+  fails(cut, "all of it and unchanged");
+  other[1] += 1;
+  fails(other, "add the same organs and pairs");
+  moved[5] = std::nan("");
+  fails(moved, "position 0 of the history has the component nan");
+  unsorted[history.size() - 7] = 0;  // the number of the last entry
+  fails(unsorted, "all of it and unchanged");
+  const hmps::ContactSettings settings{.spacing = l0, .density = density, .friction = 1};
+  hmps::MetaballContact<double, 3> corrected(settings);
+  scene.pile.declare(corrected);
+  EXPECT_THROW(corrected.restore_history(history), hmps::InputError);
+  EXPECT_EQ(scene.contact.history(), history) << "a failure changes nothing";
 }
 
 TEST(Sticking, HasTheSameBitsInAnyOrder) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hmps/contact/metaball_contact.hpp"
+#include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
+#include "hmps/core/types.hpp"
+
+namespace hmps::inline HMPS_ABI {
+
+// The numbers of a history: memberships of particles in organs, pairs of a slave and a wall, positions; the positions;
+// the entries of `ContactHistory`.
+
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+std::vector<double> MetaballContact<S, D, Kernel, Friction, Penalty>::history() const {
+  const auto& organs = lists_.organs();
+  std::vector<double> numbers{static_cast<double>(organs.members().size()), static_cast<double>(organs.slots()), 0};
+  if constexpr (has_spring) {
+    numbers.back() = static_cast<double>(motion_.places().size());
+    for (const Vector<double, D>& place : motion_.places()) numbers.insert(numbers.end(), place.begin(), place.end());
+  }
+  history_.append_to(numbers);
+  return numbers;
+}
+
+template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::restore_history(std::span<const double> history) {
+  constexpr std::size_t head = 3;
+  const auto& organs = lists_.organs();
+  detail::require(history.size() >= head, "hmps: a history of contact has ", head,
+                  " numbers at least, but this one has ", history.size(),
+                  "; give restore_history what history() returned");
+  detail::require(
+      history[0] == static_cast<double>(organs.members().size()) && history[1] == static_cast<double>(organs.slots()),
+      "hmps: the history is of a contact with ", history[0], " particles in organs and ", history[1],
+      " slaves in pairs, but this one has ", organs.members().size(), " and ", organs.slots(),
+      "; add the same organs and pairs, in the same order, before you restore it");
+  const double positions = history[2], room = static_cast<double>(history.size() - head) / D;
+  detail::require(positions >= 0 && positions <= std::min(room, history[0]) && (has_spring || positions == 0),
+                  "hmps: the history claims ", positions, " positions among its ", history.size(),
+                  " numbers; was it written with another law of friction, or cut?");
+  const auto count = static_cast<std::size_t>(positions);
+  std::vector<Vector<double, D>> places(count);
+  for (std::size_t n = 0; n < count; ++n)
+    for (std::size_t c = 0; c < D; ++c) {
+      const double place = history[head + D * n + c];
+      detail::require(detail::is_finite(place), "hmps: position ", n, " of the history has the component ", place,
+                      "; every number must be finite");
+      places[n][static_cast<int>(c)] = place;
+    }
+  history_.restore(history.subspan(head + D * count), organs.slots());
+  if constexpr (has_spring) motion_.restore(std::move(places));
+}
+
+}  // namespace hmps::inline HMPS_ABI
