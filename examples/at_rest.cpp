@@ -12,7 +12,7 @@ int main() {
 
   // The bar of the first program: 60 x 20 x 20 mm, and two layers more at x < 0, which the clamp holds.
   const hmps::Box<double, 3> bar{Vector(-2 * l0, 0, 0), Vector(0.06, 0.02, 0.02)};
-  const std::vector<Vector> reference = hmps::fill_lattice(bar, bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
+  const std::vector<Vector> reference = hmps::fill_lattice(bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
   const hmps::ParticleSet clamped(reference.size(), [&](std::size_t i) { return reference[i][0] < 0; });
   std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity;
 

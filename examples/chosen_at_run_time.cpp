@@ -30,7 +30,7 @@ int main(int count, char** arguments) {
   }
   const double l0 = 2e-3, rho = 1000, dt = 2e-5, volume = l0 * l0 * l0;  // m, kg/m3, s, m3
   const hmps::Box<double, 3> block{Vector::Zero(), Vector(0.012, 0.008, 0.008)};
-  const std::vector<Vector> reference = hmps::fill_lattice(block, block, l0, Vector(Vector::Constant(l0 / 2)));
+  const std::vector<Vector> reference = hmps::fill_lattice(block, l0, Vector(Vector::Constant(l0 / 2)));
   std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity;
   for (Vector& r : position) r[0] *= 1.1;
   const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);

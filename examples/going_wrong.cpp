@@ -9,7 +9,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 2e-3, rho = 1000;  // m, kg/m3
   const hmps::Box<double, 3> cube{Vector::Zero(), Vector::Constant(0.016)};
-  const auto reference = hmps::fill_lattice(cube, cube, l0, Vector::Constant(l0 / 2));
+  const auto reference = hmps::fill_lattice(cube, l0, Vector::Constant(l0 / 2));
   auto position = reference, velocity = reference, load = reference;
   std::vector<hmps::Matrix<double, 3>> gradient(reference.size());
   const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);

@@ -11,7 +11,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 2e-3, rho = 1000, young = 20e3, volume = l0 * l0 * l0;  // m, kg/m3, Pa, m3
   const hmps::Box<double, 3> block{Vector::Zero(), Vector(0.012, 0.008, 0.008)};
-  const auto reference = hmps::fill_lattice(block, block, l0, Vector::Constant(l0 / 2));
+  const auto reference = hmps::fill_lattice(block, l0, Vector::Constant(l0 / 2));
   auto position = reference, velocity = reference, load = reference;
   const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);
 

@@ -25,7 +25,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 2e-3, rho = 1000, volume = l0 * l0 * l0;  // m, kg/m3, m3
   const hmps::Box<double, 3> block{Vector::Zero(), Vector(0.012, 0.008, 0.008)};
-  const std::vector<Vector> reference = hmps::fill_lattice(block, block, l0, Vector(Vector::Constant(l0 / 2)));
+  const std::vector<Vector> reference = hmps::fill_lattice(block, l0, Vector(Vector::Constant(l0 / 2)));
   std::vector<Vector> position = reference, load = reference;
   for (Vector& r : position) r = r.cwiseProduct(Vector(1.2, 0.9, 0.95)) + 0.1 * l0 * (2e3 * r).array().sin().matrix();
   const auto x = hmps::vectors(position), f = hmps::vectors(load);

@@ -21,10 +21,10 @@ int main() {
   // The plate of two layers is fixed and ends at z = 0; the tile of two layers starts a tenth of a spacing above it.
   const hmps::Box<double, 3> plate{Vector(-0.014, -0.014, -0.004), Vector(0.014, 0.014, 0)};
   const hmps::Box<double, 3> tile{Vector(-0.006, -0.006, 0), Vector(0.006, 0.006, 0.004)};
-  std::vector<Vector> reference = hmps::fill_lattice(plate, plate, l0, Vector(Vector::Constant(l0 / 2)));
+  std::vector<Vector> reference = hmps::fill_lattice(plate, l0, Vector(Vector::Constant(l0 / 2)));
   std::vector<hmps::Index> wall, all, skin;
   for (std::size_t i = 0; i < reference.size(); ++i) wall.push_back(static_cast<hmps::Index>(i));
-  for (const Vector& r : hmps::fill_lattice(tile, tile, l0, Vector(Vector::Constant(l0 / 2)))) {
+  for (const Vector& r : hmps::fill_lattice(tile, l0, Vector(Vector::Constant(l0 / 2)))) {
     all.push_back(static_cast<hmps::Index>(reference.size()));
     if (r[2] < l0) skin.push_back(all.back());
     reference.push_back(r + Vector(0, 0, 0.1 * l0));

@@ -15,9 +15,9 @@ int main() {
   const hmps::Box<double, 3> plate{Vector(-0.05, -0.012, -0.006), Vector(0.03, 0.012, 0)};
   const hmps::Box<double, 3> block{Vector(-0.008, -0.008, 0), Vector(0.008, 0.008, 0.012)};
   const Vector middle = Vector::Constant(l0 / 2);
-  std::vector<Vector> reference = hmps::fill_lattice(plate, plate, l0, middle);
+  std::vector<Vector> reference = hmps::fill_lattice(plate, l0, middle);
   const std::size_t first = reference.size();  // of the block
-  for (const Vector& r : hmps::fill_lattice(block, block, l0, middle)) reference.push_back(r);
+  for (const Vector& r : hmps::fill_lattice(block, l0, middle)) reference.push_back(r);
   const auto near = [&](bool of_block, double depth) {  // the particles of one body that are near the other
     std::vector<hmps::Index> list;
     for (std::size_t i = 0; i < reference.size(); ++i)

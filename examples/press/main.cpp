@@ -34,7 +34,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const double beyond = 2 * l0 + squeeze * height;  // since what is pressed grows broader
   const Vector start(lower[0] - beyond, lower[1] - beyond, upper[2]);
   const hmps::Box<double, 3> plate{start, Vector(upper[0] + beyond, upper[1] + beyond, upper[2] + 2 * l0)};
-  for (const Vector& r : hmps::fill_lattice(plate, plate, l0, Vector(start.array() + l0 / 2))) reference.push_back(r);
+  for (const Vector& r : hmps::fill_lattice(plate, l0, Vector(start.array() + l0 / 2))) reference.push_back(r);
 
   // The state, and views of it.
   std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity, seen = load;
@@ -96,7 +96,7 @@ int main(int argc, char** argv) try {
     return *value;
   };
   const double particles = number(1, "PARTICLES", 3000), scale = number(3, "SCALE", 1);
-  run(argc > 2 ? hmps::read_surface<double>(argv[2], scale) : press::organ(), particles);
+  run(argc > 2 ? hmps::read_surface(argv[2], scale) : press::organ(), particles);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -113,6 +113,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
              "P")
           ->check(within(-1, 1, "the shift of the lattice must lie between -1 and 1 spacings"))
           ->group(experiments);
+  number(app.add_option("--stiffness", options.stiffness, "factor of Young's moduli of all organs"), "R")
+      ->check(within(0.1, 10, "the factor of Young's moduli must lie between 0.1 and 10"))
+      ->group(experiments);
   app.add_flag("--without-H", without_h, "leave out region H, the pharyngeal constrictors")->group(experiments);
 
   exit_code = 0;

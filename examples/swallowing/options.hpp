@@ -37,6 +37,7 @@ struct Options {
   double step_share = 0.8;                                 ///< of the largest stable step, where the step follows it
   double until = end_of_swallow;                           ///< in s
   std::optional<double> friction;                          ///< overrules the friction coefficient of the cases
+  double stiffness = 1;                                    ///< factor of Young's moduli of all organs
   bool paper_contact = false;                              ///< contact as the paper has it, in place of ours
   std::optional<double> penalty;                           ///< fixed k in N/m4, whatever the step
   std::optional<double> penalty_ratio;                     ///< k~ of \paper{25}

@@ -50,6 +50,7 @@ class Run {
         folder_(prepared(std::filesystem::path(options.out) / chosen.name)),
         lock_(folder_),
         data_(data_folder(options)),
+        materials_(Materials{}.stiffened(options.stiffness)),
         motion_(data_),
         scene_(make_scene({.spacing = options.spacing,
                            .lattice_shift = options.lattice_shift,

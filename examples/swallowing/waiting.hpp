@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #endif
 
@@ -21,7 +23,9 @@ inline void wait_shortly_if_busy([[maybe_unused]] int threads, [[maybe_unused]] 
   if (threads < 2 || std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr ||
       getloadavg(&load, 1) != 1 || load + threads <= std::thread::hardware_concurrency() + 0.5)
     return;
-  if (setenv("GOMP_SPINCOUNT", "10000", 1) == 0) execv("/proc/self/exe", argv);
+  std::error_code failure;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", failure);  // whose name lists of processes show
+  if (!failure && setenv("GOMP_SPINCOUNT", "10000", 1) == 0) execv(program.c_str(), argv);
 #endif
 }
 

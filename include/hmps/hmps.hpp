@@ -96,6 +96,7 @@
 #include "hmps/lanes/slots.hpp"
 #include "hmps/lanes/staging.hpp"
 #include "hmps/lanes/volume_shares.hpp"
+#include "hmps/laws/check_law.hpp"
 #include "hmps/laws/continued.hpp"
 #include "hmps/laws/invariants.hpp"
 #include "hmps/laws/law.hpp"

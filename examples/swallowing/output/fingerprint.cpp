@@ -39,6 +39,7 @@ RunSettings fingerprint(const Options& options, const Case& chosen, const std::f
                        {"lattice shift", text(options.lattice_shift)},
                        {"region H", options.constrictors ? "yes" : "no"},
                        {"friction", text(friction)},
+                       {"stiffness", text(options.stiffness)},
                        {"time step", text(first_step)},
                        {"share of the stable step", options.time_step > 0 ? "none" : text(options.step_share)},
                        {"contact", options.paper_contact ? "paper" : "smooth"},
@@ -55,6 +56,7 @@ RunSettings shared_settings(const Options& options) {
                        {"lattice shift", text(options.lattice_shift)},
                        {"region H", options.constrictors ? "yes" : "no"},
                        {"friction", options.friction ? text(*options.friction) : "of the case"},
+                       {"stiffness", text(options.stiffness)},
                        {"time step", options.time_step > 0 ? text(options.time_step)
                                                            : text(options.step_share) + " of the largest stable one"},
                        {"contact", options.paper_contact ? "paper" : "smooth"},

@@ -22,6 +22,13 @@ struct Materials {
   double contact_stiffness = 2e8;
   double speed_limit = 20;  ///< m/s: half the speed of sound; nothing in a swallow is as fast
 
+  /// The same with Young's moduli `factor` times as large.
+  [[nodiscard]] Materials stiffened(double factor) const {
+    Materials materials = *this;
+    materials.young *= factor;
+    materials.young_epiglottis *= factor;
+    return materials;
+  }
   [[nodiscard]] double young_of(Organ organ) const { return organ == Organ::epiglottis ? young_epiglottis : young; }
   /// The law of an organ: C1 = C2 from Young's modulus by \paper{18}.
   [[nodiscard]] hmps::MooneyRivlin<double> law(Organ organ) const {

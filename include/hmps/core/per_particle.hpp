@@ -11,6 +11,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/inline.hpp"
+#include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -33,6 +34,13 @@ struct OneParticle {
     detail::require(index < parameter.size(), "hmps: the parameters hold ", parameter.size(),
                     " particles, but particle ", index, " asks for its own; give one for each");
     return static_cast<double>(parameter[index]);
+  }
+  /// A vector of the particle, such as the direction of its fibres. Throws `InputError` if the view ends before it.
+  template <class P, int D>
+  [[nodiscard]] Vector<double, D> operator()(const VectorView<P, D>& parameter) const {
+    detail::require(index < parameter.size(), "hmps: the vectors hold ", parameter.size(), " particles, but particle ",
+                    index, " asks for its own; give one for each");
+    return parameter[index].template cast<double>();
   }
   /// A parameter of the particle's body: `table[body[i]]`. Throws `InputError` for a body that is not in the table.
   template <class P, class B>

@@ -56,7 +56,7 @@ struct Continued {
     const detail::InvariantFactors<T> at = law.invariant_factors(bound);
     const T below = J - bound;
     const T g1 = at.first + at.first_slope * below, g2 = at.second + at.second_slope * below;
-    const T I1 = detail::first_invariant(C), I2 = detail::second_invariant(C, symmetric_cofactor(C));
+    const T I1 = first_invariant(C), I2 = second_invariant(C, symmetric_cofactor(C));
     const T slope = at.first_slope * I1 + at.second_slope * I2 + at.volumetric_slope + at.volumetric_curvature * below;
     const T unit = (g1 + g1) + (g2 + g2) * I1, linear = g2 + g2;
     const Matrix<T, D> K = cofactor(F), FC = product(F, C);
@@ -79,7 +79,7 @@ struct Continued {
     const T own = law.energy(C, T(select(inside, J, bound)));
     const detail::InvariantFactors<T> at = law.invariant_factors(bound);
     const T below = J - bound;
-    const T I1 = detail::first_invariant(C), I2 = detail::second_invariant(C, symmetric_cofactor(C));
+    const T I1 = first_invariant(C), I2 = second_invariant(C, symmetric_cofactor(C));
     const T continued = (at.first + at.first_slope * below) * I1 + (at.second + at.second_slope * below) * I2 +
                         (at.volumetric + below * (at.volumetric_slope + T(0.5) * at.volumetric_curvature * below));
     return select(inside, own, continued);

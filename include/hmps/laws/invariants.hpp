@@ -5,11 +5,10 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 
-/// Invariants of the right Cauchy-Green tensor, shared by the laws. In two dimensions everything
-/// belongs to plane strain, C33 = 1.
-namespace hmps::inline HMPS_ABI::detail {
+namespace hmps::inline HMPS_ABI {
 
-/// The first invariant I1 of C; in plane strain C33 = 1 counts too.
+/// The first invariant I1 of the right Cauchy-Green tensor `C`. In two dimensions, plane strain, C33 = 1 is part of it,
+/// which `trace(C)` omits.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE T first_invariant(const Matrix<T, D>& C) {
   if constexpr (D == 2) {
@@ -19,8 +18,8 @@ template <class T, int D>
   }
 }
 
-/// The second invariant I2 of C from `C` and its cofactor matrix `K`; in plane strain the cofactor of
-/// C33 = 1 is the determinant of the in-plane part, and the other two are C22 and C11.
+/// The second invariant I2 of `C` from its cofactor matrix `K`, which is `symmetric_cofactor(C)`. In two dimensions,
+/// plane strain, the cofactor of C33 = 1 is the determinant of the in-plane part, and the other two are C22 and C11.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE T second_invariant(const Matrix<T, D>& C, const Matrix<T, D>& K) {
   if constexpr (D == 2) {
@@ -29,6 +28,8 @@ template <class T, int D>
     return trace(K);
   }
 }
+
+namespace detail {
 
 /// The symmetric tensor `unit` I - `linear` C + `cofactors` K, the shape of S in every law of the
 /// invariants.
@@ -104,4 +105,6 @@ struct InvariantFactors {
   T volumetric_curvature;  ///< d2h/dJ2
 };
 
-}  // namespace hmps::inline HMPS_ABI::detail
+}  // namespace detail
+
+}  // namespace hmps::inline HMPS_ABI

@@ -56,7 +56,8 @@ template <class Law, class T, int D>
 struct RequireLaw {
   static_assert(IsLaw<Law, T, D>::value,
                 "hmps: a law needs second_piola_kirchhoff(C, J) or first_piola_kirchhoff(F), const, taking and "
-                "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar");
+                "returning Matrix<T, D> of the scalar in use; make it a template over T and D to serve every scalar. "
+                "A callable that returns the law of each particle takes `const auto& at`");
   static constexpr bool value = true;
 };
 }  // namespace detail

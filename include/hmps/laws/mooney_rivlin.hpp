@@ -79,8 +79,8 @@ struct MooneyRivlin {
   template <class T, int D>
   [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
     const Matrix<T, D> K = symmetric_cofactor(C);
-    const T I1 = detail::first_invariant(C);
-    const T I2 = detail::second_invariant(C, K);
+    const T I1 = first_invariant(C);
+    const T I2 = second_invariant(C, K);
     // Every power of J from one root, without a division.
     const T root = inverse_cube_root(J);
     const T a = root * root;

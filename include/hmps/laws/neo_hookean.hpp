@@ -48,7 +48,7 @@ struct NeoHookean {
     const T root = inverse_cube_root(J);
     const T a = root * root, inverse_J = a * root;
     const T w1 = T(mu) * a;
-    const T pressure = T(kappa) * (J - T(1)) - w1 * detail::first_invariant(C) * (inverse_J * T(1.0 / 3.0));
+    const T pressure = T(kappa) * (J - T(1)) - w1 * first_invariant(C) * (inverse_J * T(1.0 / 3.0));
     const T scale = pressure * inverse_J;
     Matrix<T, D> S;
     for (int c = 0; c < D; ++c) {

@@ -182,4 +182,12 @@ requires Shape<F, S, D>
   return detail::joined<S, D>(slabs, execute);
 }
 
+/// The same for a box: `fill_lattice(box, l0)`.
+template <class S, int D, Executor E = Serial>
+[[nodiscard]] std::vector<Vector<S, D>> fill_lattice(
+    const Box<S, D>& box, std::type_identity_t<S> spacing,
+    const std::type_identity_t<Vector<S, D>>& origin = Vector<S, D>::Zero(), const E& execute = {}) {
+  return fill_lattice(box, box, spacing, origin, execute);
+}
+
 }  // namespace hmps::inline HMPS_ABI

@@ -103,7 +103,7 @@ class ObjParser {
 /// Reads a surface from a Wavefront OBJ file: its `v` and `f` lines, in any order. Polygons are split into fans;
 /// normals, textures, groups and materials are ignored. A backslash at the end continues a line. Scaled, welded and
 /// checked as in `read_stl`. Throws `InputError`, with the line, if the file cannot be read.
-template <class S>
+template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_obj(const std::string& path, const SurfaceFileSettings& settings) {
   detail::validate(settings, path);
   std::string text = detail::read_text(path);
@@ -115,7 +115,7 @@ template <class S>
 }
 
 /// Reads a closed surface from a Wavefront OBJ file.
-template <class S>
+template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_obj(const std::string& path, double scale = 1, double tolerance = 1e-6) {
   return read_obj<S>(path, SurfaceFileSettings{scale, tolerance});
 }

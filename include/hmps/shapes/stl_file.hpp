@@ -120,7 +120,7 @@ void parse_ascii_stl(std::string_view text, const SurfaceFileSettings& settings,
 /// triangles are dropped (`drop_repeated`), and the surface is checked (`require_closed`) unless `settings.closed` is
 /// false. Throws `InputError`, with the line (ASCII) or the byte (binary), if the file cannot be read, and if more
 /// binary triangles follow than the header announces.
-template <class S>
+template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_stl(const std::string& path, const SurfaceFileSettings& settings) {
   detail::validate(settings, path);
   std::string text = detail::read_text(path);
@@ -136,7 +136,7 @@ template <class S>
 }
 
 /// Reads a closed surface from an STL file.
-template <class S>
+template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_stl(const std::string& path, double scale = 1, double tolerance = 1e-6) {
   return read_stl<S>(path, SurfaceFileSettings{scale, tolerance});
 }

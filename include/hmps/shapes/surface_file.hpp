@@ -15,8 +15,8 @@ namespace hmps::inline HMPS_ABI {
 /// Reads a surface from an .stl or .obj file, by the extension; see `read_stl` and `read_obj`. An open one, in
 /// millimetres:
 ///
-///     const auto mesh = read_surface<double>("organ.stl", {.scale = 1e-3, .closed = false});
-template <class S>
+///     const auto mesh = read_surface("organ.stl", {.scale = 1e-3, .closed = false});
+template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_surface(const std::string& path, const SurfaceFileSettings& settings) {
   const std::string name = detail::lower_case(path);
   if (name.ends_with(".stl")) return read_stl<S>(path, settings);
@@ -28,7 +28,7 @@ template <class S>
 }
 
 /// Reads a closed surface from an .stl or .obj file, by the extension.
-template <class S>
+template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_surface(const std::string& path, double scale = 1, double tolerance = 1e-6) {
   return read_surface<S>(path, SurfaceFileSettings{scale, tolerance});
 }

@@ -46,6 +46,14 @@ class BlockParameters {
     }
     return gather([&](Index i) { return parameter[i]; });
   }
+  /// A vector per particle, such as the direction of its fibres. Throws `InputError` if the array has another size.
+  template <class P>
+  [[nodiscard]] HMPS_INLINE Vector<T, D> operator()(const VectorView<P, D>& parameter) const {
+    require_size(parameter, blocks_.size(), "vectors");
+    Vector<T, D> result;
+    for (int c = 0; c < D; ++c) result[c] = gather([&](Index i) { return parameter(i, c); });
+    return result;
+  }
   /// A parameter per body: `table[body[i]]`. Throws `InputError` if `body` has another size or an entry is out of the
   /// table.
   template <class P, class B>

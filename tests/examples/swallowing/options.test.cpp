@@ -85,6 +85,8 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(parsed.options->frame_interval, 0.02);
   EXPECT_EQ(parse({"--penalty-ratio", "0.1"}).options->penalty_ratio, 0.1);
   EXPECT_EQ(parse({"--step-share", "0.4"}).options->step_share, 0.4);
+  EXPECT_EQ(parse({}).options->stiffness, 1);
+  EXPECT_EQ(parse({"--stiffness", "0.8"}).options->stiffness, 0.8);
 }
 
 TEST(Options, TheContactOfThePaperHasItsPenalty) {
@@ -136,6 +138,7 @@ TEST(Options, MistakesEndWithCodeTwoAndNameTheOption) {
                                                        {"--until", "3"},
                                                        {"--friction", "-0.1"},
                                                        {"--friction", "inf"},
+                                                       {"--stiffness", "0"},
                                                        {"--scalar", "half"},
                                                        {"--threads", "0"},
                                                        {"--threads", "two"},

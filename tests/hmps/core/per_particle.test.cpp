@@ -44,6 +44,13 @@ TEST(PerParticle, CallableComputesTheValueOfEach) {
   EXPECT_NE(message(3).find("particle 1 belongs to body 2"), std::string::npos) << message(3);
 }
 
+TEST(PerParticle, AVectorIsEachOnesOwn) {
+  const std::vector<Vector<float, 2>> directions{{1, 0}, {0.6F, 0.8F}};
+  EXPECT_EQ(OneParticle{1}(vectors(directions)), (Vector<double, 2>(0.6F, 0.8F)));
+  const std::string message = hmps_test::message_of([&] { (void)OneParticle{2}(vectors(directions)); });
+  EXPECT_NE(message.find("hold 2 particles, but particle 2"), std::string::npos) << message;
+}
+
 TEST(PerParticle, ValuesThatAreNotPositiveAreNamed) {
   std::vector<double> values{1, 2, 3};
   EXPECT_NO_THROW(require_positive(1000.0, 5, "density", "kg/m3"));

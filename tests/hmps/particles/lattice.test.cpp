@@ -88,8 +88,9 @@ TYPED_TEST(Lattice, ABoxOfTenSpacingsHoldsTenSitesWhateverTheOrigin) {
         const Box<S, D> box{at(corner), at(corner + 10)};
         // Sites on the faces, and between them.
         for (const V& origin : {at(corner + shift), at(shift)})
-          EXPECT_EQ(hmps::fill_lattice(box, box, static_cast<S>(l0), origin).size(), D == 2 ? 100u : 1000u)
+          EXPECT_EQ(hmps::fill_lattice(box, static_cast<S>(l0), origin).size(), D == 2 ? 100u : 1000u)
               << l0 << " from " << corner << ", origin " << origin.transpose();
+        EXPECT_EQ(hmps::fill_lattice(box, static_cast<S>(l0)), hmps::fill_lattice(box, box, static_cast<S>(l0)));
       }
     }
   }

@@ -80,6 +80,7 @@ TYPED_TEST(Parameters, ArePerParticleAndPerBody) {
   for (std::size_t b = 0; b < bonds.block_count(); ++b) {
     const hmps::BlockOfParticles<K, 2> at(bonds, b, none, none);
     const auto own = at(hmps::scalars(stiffness)), of_body = at(hmps::scalars(table), hmps::scalars(body));
+    const auto place = at(hmps::vectors(points));
     for (int l = 0; l < hmps::Lanes<K>::width; ++l) {
       const hmps::Index i = at.particle(l);
       if (i == hmps::Blocks<K, 2>::none) {
@@ -88,6 +89,7 @@ TYPED_TEST(Parameters, ArePerParticleAndPerBody) {
       } else {
         EXPECT_EQ(own.lane[l], static_cast<K>(i + 1));
         EXPECT_EQ(of_body.lane[l], static_cast<K>(10 * (i % 3 + 1)));
+        for (int c = 0; c < 2; ++c) EXPECT_EQ(place[c].lane[l], static_cast<K>(points[i][c]));
         EXPECT_NEAR(at.inverse_shape_trace().lane[l] * bonds.shape_trace(i), K(1),
                     4 * std::numeric_limits<K>::epsilon());
       }
@@ -105,6 +107,9 @@ TYPED_TEST(Parameters, OfAnotherSizeOrOfAnUnknownBodyAreRefused) {
   std::vector<int> body(35, 1);
   std::string text = error_of([&] { (void)at(hmps::scalars(few)); });
   EXPECT_TRUE(has(text, "parameters holds 34 particles but 35 are needed")) << text;
+  const std::vector<hmps::Vector<double, 2>> directions(34);
+  text = error_of([&] { (void)at(hmps::vectors(directions)); });
+  EXPECT_TRUE(has(text, "vectors holds 34 particles but 35 are needed")) << text;
   text = error_of([&] { (void)at(hmps::scalars(table), hmps::scalars(few)); });
   EXPECT_TRUE(has(text, "bodies holds 34 particles but 35 are needed")) << text;
   const hmps::Index i = at.particle(3);
