@@ -37,6 +37,9 @@ if(HMPS_SANITIZE)
   target_compile_options(hmps_long_running INTERFACE -O1)
 endif()
 
+# CMake marks precompiled headers as headers of the system, in which nothing is warned of: not here.
+set(CMAKE_PCH_PROLOGUE "")
+
 # The instruction set of this machine, for the programs whose speed matters.
 add_library(hmps_native INTERFACE)
 target_compile_options(hmps_native INTERFACE $<$<BOOL:${HMPS_NATIVE}>:-march=native>)

@@ -46,7 +46,10 @@ int main() {
 
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double largest = 0;
-  for (const auto& f : load) sum += f, largest = std::max(largest, f.norm());
+  for (const auto& f : load) {
+    sum += f;
+    largest = std::max(largest, f.norm());
+  }
   const double energy = force.energy(hmps::vectors(position), l0 * l0 * l0).total();
   std::printf("stretched by a fifth: %.2f uJ, largest force %.3e N/m3, their sum %.0e of it\n", 1e6 * energy, largest,
               sum.norm() / largest);

@@ -144,8 +144,9 @@ class FittedField {
 
  private:
   using Cell = std::array<std::int64_t, std::size_t{D}>;
+  static constexpr std::size_t parts_per_axis = samples_per_spacing;
   /// Of the parts of a cell.
-  using Distances = std::array<double, samples_per_spacing * samples_per_spacing*(D == 3 ? samples_per_spacing : 1)>;
+  using Distances = std::array<double, parts_per_axis * parts_per_axis*(D == 3 ? parts_per_axis : 1)>;
   struct Found {
     std::vector<Sample<D>> samples;
     std::vector<SurfacePoint<D>> surface;
