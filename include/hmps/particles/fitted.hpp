@@ -17,7 +17,10 @@
 #include "hmps/particles/fitted_samples.hpp"
 #include "hmps/particles/fitted_settings.hpp"
 #include "hmps/particles/fitted_volumes.hpp"
+#include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/implicit.hpp"
+#include "hmps/shapes/mesh_distance.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -111,6 +114,22 @@ requires Shape<F, S, D>
       result.largest_distance = std::max(result.largest_distance, std::abs(p.depth - p.layers.level(0)));
   }
   return result;
+}
+
+/// The same for the body inside a closed surface, whose distance is `MeshDistance`:
+///
+///     const auto fitted = fit_particles(read_surface("organ.stl", 1e-3), l0);
+///
+/// Throws `InputError` also as `require_closed` does, and for a spacing that seems to be in another unit than the
+/// surface.
+template <class S, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
+[[nodiscard]] FittedParticles<S, 3> fit_particles(const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,
+                                                  const FitSettings& settings = {}, const E& execute = {},
+                                                  Progress&& progress = {}) {
+  require_closed(mesh);
+  const MeshDistance<S> shape(mesh);
+  detail::require_plausible(mesh, shape.box(), static_cast<double>(spacing));
+  return fit_particles(shape, shape.box(), spacing, settings, execute, std::forward<Progress>(progress));
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -17,6 +17,8 @@
 #include "hmps/particles/support.hpp"
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/shapes/combine.hpp"
+#include "hmps/shapes/mesh_distance.hpp"
+#include "hmps/shapes/surface_mesh.hpp"
 
 namespace fitted_test {
 
@@ -315,7 +317,8 @@ TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
   EXPECT_EQ(a.largest_distance, b.largest_distance);
 }
 
-// The distance to a mesh takes microseconds. Every point of every cell that the surface cuts would take 3200 a particle.
+// The distance to a mesh takes microseconds. Every point of every cell that the surface cuts would take 3200 a
+// particle.
 TEST(FitParticles, AsksTheShapeSeldom) {
   const Plate plate{2.9};
   std::size_t asked = 0;
@@ -323,9 +326,26 @@ TEST(FitParticles, AsksTheShapeSeldom) {
     ++asked;
     return plate(x);
   };
-  const auto fitted = fit_particles(counted, Box<double, 3>{V3(-4, -1, -1), V3(5, 10, 12)}, 1.0,
-                                    {.iterations = 1, .least_support = 0});
+  const auto fitted =
+      fit_particles(counted, Box<double, 3>{V3(-4, -1, -1), V3(5, 10, 12)}, 1.0, {.iterations = 1, .least_support = 0});
   EXPECT_LT(asked, 2000 * fitted.size());
+}
+
+TEST(FitParticles, FillsASurfaceInOneCall) {
+  const double l0 = 1e-3;
+  hmps::SurfaceMesh<double> brick;
+  for (int k = 0; k < 8; ++k)
+    brick.vertices.push_back(l0 * V3(k & 1 ? 6.3 : 0.2, k & 2 ? 5.1 : 0.1, k & 4 ? 3.0 : 0.0));
+  brick.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const auto fitted = fit_particles(brick, l0);
+  const hmps::MeshDistance<double> shape(brick);
+  EXPECT_EQ(fitted.positions, fit_particles(shape, shape.box(), l0).positions);
+  EXPECT_NEAR(sum(fitted.volumes), 91.5e-9, 1e-3 * 91.5e-9);
+  const std::string message = message_of([&] { (void)fit_particles(brick, 1.0); });
+  EXPECT_NE(message.find("give both in metres"), std::string::npos) << message;
+  brick.triangles.pop_back();
+  EXPECT_THROW((void)fit_particles(brick, l0), hmps::InputError);
 }
 
 TEST(FitParticles, TellsItsProgress) {
