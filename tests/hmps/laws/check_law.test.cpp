@@ -57,7 +57,7 @@ void pass_all() {
   check_law<D>(hmps::NeoHookean<>::from_young_poisson(20e3, 0.49));
   check_law<D>(hmps::SaintVenantKirchhoff<>::from_young_poisson(20e3, 0.3));
   check_law<D>(hmps::LinearElastic<>::from_young_poisson(20e3, 0.3));
-  check_law<D>(hmps::Continued(hmps::MooneyRivlin<>::from_young(20e3, 1e6), 0.9));
+  check_law<D>(hmps::Continued{hmps::MooneyRivlin<>::from_young(20e3, 1e6), 0.9});
   check_law<D>(Own{});
 }
 TEST(CheckLaw, PassesTheLawsOfTheLibrary) {
