@@ -44,8 +44,8 @@ set(CMAKE_PCH_PROLOGUE "")
 add_library(hmps_native INTERFACE)
 target_compile_options(hmps_native INTERFACE $<$<BOOL:${HMPS_NATIVE}>:-march=native>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12.3)
-  # It warns of its own header for AVX-512 (https://gcc.gnu.org/PR105593).
-  target_compile_options(hmps_native INTERFACE -Wno-maybe-uninitialized)
+  # It warns of its own header for AVX-512 (https://gcc.gnu.org/PR105593), as read without a value or perhaps so.
+  target_compile_options(hmps_native INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 
 # hmps_parsed_once(<target>): for what is compiled with hmps_development and hmps_native and nothing else that changes
