@@ -30,7 +30,7 @@ template <class... Values>
   if (!result.summary) return "not run";
   if (result.summary->fold_time) return format("%.3f s", *result.summary->fold_time);
   if (result.summary->failure) return "stopped";
-  return result.summary->time > 2.05 - 1e-4 ? "did not fold" : format("not until %.3f s", result.summary->time);
+  return result.summary->time > 2.05 - 1e-4 ? "did not fold" : format("not until %.4g s", result.summary->time);
 }
 [[nodiscard]] std::string papers(const Case& paper) {
   return paper.fold_time ? format("%.2f s", *paper.fold_time) : "did not fold";
