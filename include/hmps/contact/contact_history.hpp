@@ -68,8 +68,9 @@ class ContactHistory {
   void restore(std::span<const double> numbers, std::size_t size) {
     constexpr std::size_t width = 1 + D + (has_slip ? D : 0);
     const auto require_history = [](bool holds) {
-      require(holds, "hmps: these numbers are no history of a contact with this law of friction; give restore_history "
-                     "what history() returned, all of it and unchanged");
+      require(holds,
+              "hmps: these numbers are no history of a contact with this law of friction; give restore_history "
+              "what history() returned, all of it and unchanged");
     };
     require_history(numbers.size() % width == 0);
     std::vector<Entry> entries(size);
