@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <hmps/hmps.hpp>
+#include <type_traits>
 #include <vector>
 
 /// W = that of a neo-Hookean solid + k1 / (2 k2) (exp(k2 e^2) - 1), e = a . C a - 1 where fibres are stretched.
