@@ -7,6 +7,7 @@ Usage: page.py BENCHMARKS_JSON PAGE
 
 import json
 import pathlib
+import statistics
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "report"))
@@ -17,13 +18,15 @@ KINDS = ("float", "mixed", "double")
 
 
 def read(path):
-    """The medians (or single runs) by name, and the description of the machine."""
+    """The medians (or single runs) by name, the description of the machine, and the scatter of the repetitions."""
     found = json.loads(pathlib.Path(path).read_text())
-    runs = {}
+    runs, scatter = {}, []
     for run in found["benchmarks"]:
         if run["run_type"] == "iteration" or run.get("aggregate_name") == "median":
             runs[run["run_name"].removesuffix("/real_time")] = run
-    return runs, found["context"]
+        elif run.get("aggregate_name") == "cv":
+            scatter.append(run["cpu_time"])
+    return runs, found["context"], scatter
 
 
 def processor():
@@ -52,8 +55,8 @@ def size(particles):
 
 
 class Page:
-    def __init__(self, runs, context):
-        self.runs, self.context = runs, context
+    def __init__(self, runs, context, scatter):
+        self.runs, self.context, self.scatter = runs, context, scatter
 
     def rate(self, name):
         """Items per second in millions, or None where it was not run."""
@@ -85,7 +88,9 @@ class Page:
                          f"{machine()}, {self.context['num_cpus']} cores{caches}. Medians; one thread by the time of "
                          f"the processor, several by the clock. When the run began, {others or 'no'} other "
                          f"process{'' if others == 1 else 'es'} kept the machine busy" +
-                         (": figures for several threads mean little then." if others else "."))
+                         (": figures for several threads mean little then." if others else ".") +
+                         (f" The repetitions of a benchmark scatter by {100 * statistics.median(self.scatter):.0f} % "
+                          "(standard deviation, median over all benchmarks)." if self.scatter else ""))
 
     def step(self):
         yield from ["## The whole step", ""]
@@ -227,8 +232,7 @@ class Page:
 
 
 def main():
-    runs, context = read(sys.argv[1])
-    write(pathlib.Path(sys.argv[2]), Page(runs, context).lines())
+    write(pathlib.Path(sys.argv[2]), Page(*read(sys.argv[1])).lines())
 
 
 if __name__ == "__main__":
