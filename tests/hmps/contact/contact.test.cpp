@@ -533,7 +533,7 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
   };
   Made made = make();
   const std::string again = message_of([&] { made.contact.add_pair(made.plate, made.block); });
-  EXPECT_NE(again.find("'plate' and 'block' already are contact pair 0"), std::string::npos) << again;
+  EXPECT_NE(again.find("'plate' and 'block' are already contact pair 0"), std::string::npos) << again;
   EXPECT_FALSE(message_of([&] { made.contact.add_pair(made.block, made.plate); }).empty()) << "reversed";
 
   const auto twin = made.contact.add_organ({.name = "twin", .slaves = bottom, .masters = lower, .prescribed = {}});
