@@ -15,8 +15,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-// The numbers of a history: memberships of particles in organs, pairs of a slave and a wall, positions; the positions;
-// the entries of `ContactHistory`.
+// The layout of a history: the number of memberships of particles in organs, that of pairs of a slave and a wall, and
+// that of positions; then the positions; then the entries of `ContactHistory`.
 
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 std::vector<double> MetaballContact<S, D, Kernel, Friction, Penalty>::history() const {
@@ -34,18 +34,17 @@ template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::restore_history(std::span<const double> history) {
   constexpr std::size_t head = 3;
   const auto& organs = lists_.organs();
-  detail::require(history.size() >= head, "hmps: a history of contact has ", head,
-                  " numbers at least, but this one has ", history.size(),
-                  "; give restore_history what history() returned");
+  detail::require(history.size() >= head, "hmps: a contact history has at least ", head, " numbers, but this one has ",
+                  history.size(), "; give restore_history the numbers that history() returned");
   detail::require(
       history[0] == static_cast<double>(organs.members().size()) && history[1] == static_cast<double>(organs.slots()),
       "hmps: the history is of a contact with ", history[0], " particles in organs and ", history[1],
-      " slaves in pairs, but this one has ", organs.members().size(), " and ", organs.slots(),
+      " slaves in pairs, but this contact has ", organs.members().size(), " and ", organs.slots(),
       "; add the same organs and pairs, in the same order, before you restore it");
   const double positions = history[2], room = static_cast<double>(history.size() - head) / D;
   detail::require(positions >= 0 && positions <= std::min(room, history[0]) && (has_spring || positions == 0),
                   "hmps: the history claims ", positions, " positions among its ", history.size(),
-                  " numbers; was it written with another law of friction, or cut?");
+                  " numbers; was it written with another friction law, or truncated?");
   const auto count = static_cast<std::size_t>(positions);
   std::vector<Vector<double, D>> places(count);
   for (std::size_t n = 0; n < count; ++n)

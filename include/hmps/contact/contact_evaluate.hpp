@@ -7,7 +7,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Resizes the arrays to the present lists.
+/// Resizes the arrays to fit the current lists.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::resize() {
   const std::size_t row_count = lists_.active().rows().size() - 1, awake_count = lists_.active().awake().size() - 1;
@@ -25,7 +25,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::resize() {
   if constexpr (has_spring) motion_.choose(lists_.organs().particle(), lists_.active().awake());
 }
 
-/// F_j^-1 once per particle, many at a time.
+/// Collects the position and velocity of each awake particle and computes its F_j^-1, one block of lanes at a time.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X, class V, class G, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const V& v, const G& F, const E& execute) {
@@ -55,7 +55,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const 
         }
         if (!detail::is_finite(size + place.sum() + velocity.sum()))
           suspect_[q] = std::min(suspect_[q], static_cast<Index>(begin + l));
-        // A flattened master is no wall: it is moved out of reach.
+        // A flattened master forms no wall: it is moved out of reach.
         if (!detail::is_finite(size)) {
           for (int r = 0; r < D; ++r) {
             master.x[r] = S(1e6);
@@ -119,14 +119,14 @@ bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, cons
 
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<S>& report, double time) const {
-  detail::require(report.lost_in < lists_.organs().organs().size(), "hmps: the report to be checked is of organ ",
+  detail::require(report.lost_in < lists_.organs().organs().size(), "hmps: the report given to check names organ ",
                   report.lost_in, ", but this contact has ", lists_.organs().organs().size(),
                   " organs; give the report of its own latest call");
   throw StateError(
       detail::message("hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
                       lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
                       report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
-                      " spacings) deep in it or has passed through",
+                      " spacings) deep in it or has passed through it",
                       report.deep > 1 ? detail::message(", and ", report.deep - 1, " more") : "",
                       "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
@@ -165,11 +165,11 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V&
   }
 }
 
-/// Looks at each organ once, at its first call.
+/// Checks each organ once, in the first call after it was added.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class X>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x) {
-  constexpr std::size_t fewest = 16, most_samples = 64;  // of fewer particles the distance says little
+  constexpr std::size_t fewest = 16, most_samples = 64;  // for fewer, distances say little
   const detail::OrganPairs& organs = lists_.organs();
   detail::require(organs.organs().size() < 2 || !organs.pairs().empty(), "hmps: contact has ", organs.organs().size(),
                   " organs but no pair of them may touch; declare pairs with add_pair");
@@ -180,7 +180,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x)
     std::size_t alone = 0;
     for (std::size_t k = 0; n >= fewest && k < samples; ++k) {
       const std::size_t at = k * n / samples;
-      const auto is_close = [&](std::size_t j) {  // or is not finite, as `gather` says then
+      const auto is_close = [&](std::size_t j) {  // or not finite, which `gather` reports
         const Point apart =
             (x[organs.members()[organ.begin + j].particle] - x[organs.members()[organ.begin + at].particle])
                 .template cast<S>();
@@ -190,10 +190,9 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x)
       while (j < n && !is_close(j)) ++j;
       alone += j == n ? 1 : 0;
     }
-    detail::require(n < fewest || 10 * alone < 9 * samples, "hmps: ", alone, " of ", samples, " particles of '",
-                    organ.name, "' that were looked at have no other within ", Kernel::radius, " spacings of ",
-                    settings_.spacing,
-                    " m, so that they form no wall; give contact the particles' spacing, in the unit of the positions");
+    detail::require(n < fewest || 10 * alone < 9 * samples, "hmps: ", alone, " of ", samples, " sampled particles of '",
+                    organ.name, "' have no other particle within ", Kernel::radius, " spacings of ", settings_.spacing,
+                    " m and thus form no wall; give contact the particles' spacing, in the unit of the positions");
   }
 }
 

@@ -8,13 +8,13 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it, and for less than 1 N/m4,
-/// which is a ratio. What your own law makes of its coefficient is its own affair.
+/// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it and, for `LinearPenalty`, if
+/// it is below 1 N/m4 and thus meant as a ratio. A law of your own may use its coefficient in any way.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = is_linear ? stiffness.at(settings_.density, dt) : stiffness.coefficient(settings_.density, dt);
   detail::require(!is_linear || k >= 1, "hmps: the penalty coefficient k is ", k,
-                  " N/m4, with which walls do not push; a ratio k~ is given by PenaltyStiffness::ratio");
+                  " N/m4, with which walls do not push; to give the ratio k~, use PenaltyStiffness::ratio");
   const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
   detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
                       largest <= static_cast<double>(std::numeric_limits<S>::max()),
@@ -30,7 +30,7 @@ template <PerParticle Rho>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& rho, double dt) const {
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const double k = is_linear ? stiffness(p).at(settings_.density, dt) : laws_[p].largest;
-    const double least = k * dt * dt;  // of densities, at k~ = 1
+    const double least = k * dt * dt;  // the density at which k~ = 1
     if constexpr (std::is_arithmetic_v<Rho>)
       if (static_cast<double>(rho) > least) continue;
     for (const std::size_t o : {lists_.organs().pairs()[p].first, lists_.organs().pairs()[p].second})
@@ -57,8 +57,8 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   }
 }
 
-/// Keeps the largest stiffness of the law for each pair, of the rows that touch. Throws `StateError` if it is unstable
-/// at step `dt`, and `InputError` if the force contradicts it.
+/// Stores for each pair the largest stiffness of the law over the rows that touch. Throws `StateError` if it is
+/// unstable at step `dt`, and `InputError` if the force contradicts it.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt) {
   const double l0 = settings_.spacing;
@@ -76,7 +76,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt)
           lists_.organs().organs()[side.masters].name, "', where the penalty law has a stiffness of ", stiffness,
           " N/m4 and k~ = ", k_tilde, " at a step of ", dt,
           " s; it must be below 1: use a smaller penalty coefficient or, if that is fixed, a shorter step"));
-    // From zero on a force rises by its largest slope times p at most, but for rounding.
+    // A force that starts from zero is at most its largest slope times p, up to rounding.
     detail::require(force >= 0 && force <= (1 + 1e-6) * stiffness * p, "hmps: the penalty law gives a force of ", force,
                     " N/m3 at a penetration of ", p, " m; it must lie between 0 and ", stiffness * p,
                     ", which is `largest_stiffness` times the penetration");
@@ -84,7 +84,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt)
   }
 }
 
-/// N of `CorrectedFriction` for every awake particle.
+/// Computes the N of `CorrectedFriction` for every awake particle.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
@@ -100,7 +100,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
   });
 }
 
-/// The forces \paper{39, 40} of the rows that touch. Returns how many stick.
+/// Computes the forces \paper{39, 40} of the rows that touch. Returns how many of these rows stick.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class E>
 std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, const E& execute) {
@@ -120,8 +120,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
       const PairLaw& law = laws_[lists_.organs().sides()[row.side].pair];
       S load = 0;
       if (needs_load) {
-        // Uses the first of four numbers: a sum of single products would be vectorised, with a rounding that depends on
-        // the number of candidates without weight in between.
+        // Sums in four equal numbers and uses the first: the compiler would vectorise a scalar sum, and its rounding
+        // would then depend on the number of candidates without weight in between.
         Quad of_masters{};
         for (std::size_t e = row.begin; e < active.rows()[r + 1].begin; ++e)
           of_masters += Quad{load_[active.master_of()[e]]} * weight_[e];
@@ -146,7 +146,7 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
           force += friction_force<S, D>(slip, stick, law.friction * normal);
           result.count += stick * slip.norm() <= law.friction * normal;
         }
-      } else if constexpr (has_spring) {  // no slip is held, so that none may act once friction is switched on
+      } else if constexpr (has_spring) {  // clear the slip, so that none acts once friction is switched on
         history_.slip(row.slot).value = Point::Zero();
       }
       detail::spread<S>(force, force_[r]);
@@ -158,8 +158,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
   return sticking;
 }
 
-/// Updates the elastic slip of row `r` by the motion since the previous call. Returns the part of the velocity of the
-/// wall at the slave (m/s) that \paper{31} omits: that of its rotation.
+/// Updates the elastic slip of row `r` by the motion since the previous call. Returns the part of the wall's velocity
+/// at the slave (m/s) that \paper{31} omits: the part due to the wall's rotation.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 typename MetaballContact<S, D, Kernel, Friction, Penalty>::Point
 MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
@@ -188,7 +188,7 @@ MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
   return wall.by_turning() / static_cast<S>(dt);
 }
 
-/// \paper{43}: own forces as slave and reactions \paper{41, 42} as master; each particle gathers its own.
+/// \paper{43}: each particle gathers the forces on it as a slave and the reactions \paper{41, 42} on it as a master.
 template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
 template <class Take, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::hand_out(const Take& take, const E& execute) const {

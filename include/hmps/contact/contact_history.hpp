@@ -26,13 +26,13 @@ struct ElasticSlip {
 };
 
 /// Contact history: for each slave and wall in contact, the side of the wall on which the slave was, and its elastic
-/// slip. A fast slave may jump across the middle of a thin wall, where the direction outwards is undefined, within one
-/// step; it is detected because the wall then pushes it to the other side. Different slaves may be updated
+/// slip. Within one step, a fast slave may jump across the middle of a thin wall, where the outward direction is
+/// undefined; this is detected because the wall then pushes it to the other side. Different slaves may be updated
 /// concurrently.
 template <int D, class Slip = NoSlip>
 class ContactHistory {
  public:
-  /// For `size` pairs of a slave and a wall.
+  /// Makes room for `size` pairs of a slave and a wall.
   void resize(std::size_t size) { entries_.resize(size); }
 
   /// Begins a new call. A call without evaluations clears the history.
@@ -40,7 +40,7 @@ class ContactHistory {
 
   /// Records that entry `k` touches in this call. `outward` is the direction in which the wall pushes, before the
   /// rotation of the masters; `inside` is whether the slave is so close that this direction may be wrong. Returns
-  /// whether the direction has reversed since the slave, in contact ever since, was last not inside.
+  /// whether the direction has reversed since `inside` was last false, if the slave has been in contact ever since.
   [[nodiscard]] bool turned_round(std::size_t k, const Vector<float, D>& outward, bool inside) {
     Entry& entry = entries_[k];
     const bool known = entry.call + 1 == call_, turned = known && entry.outward.dot(outward) < -0.5F;
@@ -49,10 +49,10 @@ class ContactHistory {
     entry.call = call_;
     return turned;
   }
-  /// The elastic slip of entry `k`, which touches in this call by the function above.
+  /// The elastic slip of entry `k`, for which `turned_round` must have been called in this call.
   [[nodiscard]] Slip& slip(std::size_t k) { return entries_[k].slip; }
 
-  /// Appends what is known of the entries that touched in the latest call: number, `outward`, elastic slip.
+  /// Appends the number, `outward` and the elastic slip of each entry that touched in the latest call.
   void append_to(std::vector<double>& numbers) const {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const Entry& entry = entries_[k];
@@ -63,13 +63,13 @@ class ContactHistory {
         for (int c = 0; c < D; ++c) numbers.push_back(static_cast<double>(entry.slip.value[c]));
     }
   }
-  /// Replaces the history of `size` entries by what `append_to` wrote. Throws `InputError` for other numbers, and
-  /// leaves the history as it was then.
+  /// Replaces the history by the numbers that `append_to` wrote for `size` entries. For any other numbers it throws
+  /// `InputError` and leaves the history unchanged.
   void restore(std::span<const double> numbers, std::size_t size) {
     constexpr std::size_t width = 1 + D + (has_slip ? D : 0);
     const auto require_history = [](bool holds) {
       require(holds,
-              "hmps: these numbers are no history of a contact with this law of friction; give restore_history "
+              "hmps: these numbers are not the history of a contact with this friction law; give restore_history "
               "what history() returned, all of it and unchanged");
     };
     require_history(numbers.size() % width == 0);

@@ -16,26 +16,26 @@ namespace hmps::inline HMPS_ABI {
 struct ContactSettings {
   double spacing;  ///< l0 in m.
   double density;  ///< rho in kg/m3.
-  /// mu_tan, \paper{23}; per pair: `PairSettings`. Infinity, or 100 and more: what touches sticks.
+  /// mu_tan, \paper{23}; `PairSettings` may override it. With infinity, or 100 and more, every contact sticks.
   double friction = 0;
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
-  /// Normal damping as a fraction of critical, 2 sqrt(k rho), whatever the penalty law; an extension, the paper has
-  /// none. It is limited so that it does not reverse the closing velocity within a step. If not set, zero, or the value
-  /// of the friction law (`SpringFriction::damping`).
+  /// Normal damping as a fraction of critical, 2 sqrt(k rho), whatever the penalty law; an extension: the paper has
+  /// none. It is limited so that it does not reverse the closing velocity within a step. If it is not set, the value of
+  /// the friction law (`SpringFriction::damping`) or else zero applies.
   std::optional<double> damping = std::nullopt;
-  double margin = 0.5;  ///< Margin of the Verlet lists in spacings: motion until they are rebuilt.
+  double margin = 0.5;  ///< Margin of the Verlet lists in spacings: the motion that they tolerate.
 };
 
 namespace detail {
 
-/// Throws `InputError` unless `mu` is a coefficient of friction. What slides has a few at most, so that one from 10 to
-/// 100 is in per cent.
+/// Throws `InputError` unless `mu` is a friction coefficient. Where bodies slide, it is a few at most, so a value from
+/// 10 to 100 is taken to be a percentage.
 inline void require_friction(double mu) {
   require(!is_nan(mu) && mu >= 0, "hmps: the friction coefficient is ", mu, "; give zero or a positive number");
-  require(!(mu >= 10 && mu < 100), "hmps: the friction coefficient is ", mu, "; give ", mu / 100, " if it is ", mu,
-          " per cent, or infinity if what touches is to stick");
+  require(!(mu >= 10 && mu < 100), "hmps: the friction coefficient is ", mu, "; give ", mu / 100, " to mean ", mu,
+          " per cent, or infinity to make every contact stick");
 }
-/// Throws `InputError` for settings that are not finite or out of range. `damping` is that which is in force.
+/// Throws `InputError` for settings that are not finite or out of range. `damping` is the value in force.
 inline void validate(const ContactSettings& settings, double damping) {
   require(is_finite(settings.density) && settings.density > 0, "hmps: the density for contact is ", settings.density,
           " kg/m3; give a positive number");
@@ -46,7 +46,7 @@ inline void validate(const ContactSettings& settings, double damping) {
           "hmps: the margin of the contact lists is ", settings.margin,
           " spacings; give a positive number of spacings of at most 10, such as 0.5");
 }
-/// `mu` as a number to compute with: infinite friction holds a million times the normal force.
+/// `mu` as a finite number: infinite friction holds a million times the normal force.
 [[nodiscard]] inline double finite_friction(double mu) { return is_finite(mu) ? mu : 1e6; }
 
 }  // namespace detail
@@ -56,20 +56,20 @@ template <class S>
 struct ContactReport {
   std::size_t contacts = 0;  ///< Slaves with p > 0, counted once per organ they touch.
   std::size_t sticking = 0;  ///< Of these, the ones with friction below its limit.
-  /// Slaves that a wall has lost: so deep that the direction outwards is undefined, or pushed to the other side since
+  /// Slaves that a wall has lost: so deep that the outward direction is undefined, or pushed to the other side since
   /// the previous call. See `MetaballContact::check`. In walls of three or more layers this takes a penetration of
-  /// about 1.75 spacings, in thinner ones half the wall. A slave between two faces of one organ that both touch it is
-  /// counted too.
+  /// about 1.75 spacings, in thinner ones of half the wall. A slave between two faces of one organ that both touch it
+  /// is counted too.
   std::size_t deep = 0;
-  Index lost = 0;              ///< The deepest of them,
-  std::size_t lost_in = 0;     ///< the organ that has lost it,
-  S lost_depth = 0;            ///< and its p in m (that of an undeformed wall if there is no normal).
+  Index lost = 0;              ///< The deepest of these slaves.
+  std::size_t lost_in = 0;     ///< The organ that has lost it.
+  S lost_depth = 0;            ///< Its p in m; without a normal, that in an undeformed wall.
   S penetration = 0;           ///< The largest p in m.
-  Index deepest = 0;           ///< Its slave.
+  Index deepest = 0;           ///< The slave with this p.
   std::size_t candidates = 0;  ///< Slave-master pairs evaluated.
   std::size_t rebuilds = 0;    ///< Number of grid searches so far.
-  /// Number of list checks so far that found a strain or normal changed by more than was allowed for, so that a contact
-  /// may have been detected a few steps late. Zero or rare unless bodies chatter.
+  /// Number of list checks so far that found a strain or normal to have changed by more than was allowed for, so that a
+  /// contact may have been detected a few steps late. Zero, or rarely more, unless bodies chatter.
   std::size_t late = 0;
 };
 
@@ -81,7 +81,7 @@ struct Touch {
   Index slave = 0;
   double penetration = 0;      ///< p in m, \paper{38}.
   Vector<double, D> normal{};  ///< n_m, \paper{30}: from the wall to the slave.
-  Vector<double, D> force{};   ///< In N, on the slave, \paper{39, 40}; the wall feels the opposite.
+  Vector<double, D> force{};   ///< In N, on the slave, \paper{39, 40}; that on the wall is opposite.
 };
 
 }  // namespace hmps::inline HMPS_ABI

@@ -11,12 +11,12 @@
 namespace hmps::inline HMPS_ABI {
 
 /// The wall in front of a slave, accumulated over its master particles j in two passes: `reach` for each master (sum
-/// and normal, \paper{28, 30}), then `mean` for each with c > 0 (velocity and strain, \paper{31, 33}); then the
-/// functions below them.
+/// and normal, \paper{28, 30}), then `mean` for each with c > 0 (velocity and strain, \paper{31, 33}). After that, call
+/// the functions below these two.
 ///
 /// Lengths in m; `r` = r_ij = x_j - x_i. The kernel depends only on |F_j^-1 r_ij|^2 = r_ij . A_j r_ij with A_j = F_j^-T
-/// F_j^-1, so that one product gives both sum and gradient. A rotation of the master changes nothing; rigid masters use
-/// the identity.
+/// F_j^-1, so that one product gives both sum and gradient. A rotation of the master changes nothing; rigid masters may
+/// use the identity.
 template <class S, int D, Metaball Kernel = PaperMetaball>
 class MasterSurface {
   using Quad = detail::Quad<S>;
@@ -64,8 +64,8 @@ class MasterSurface {
   }
 
   /// n_m, \paper{30}: the unit normal from the wall to the slave; the minus of \paper{30} turns the gradient outwards.
-  /// Deep inside a wall the sum vanishes (0/0): if it is below a thousandth of the sum of its magnitudes, returns false
-  /// and sets `n` to zero.
+  /// Deep inside a wall the gradient vanishes (0/0): if the sum of (dc/ds) A_j r_ij is at most 1e-3 C_im r_e, returns
+  /// false and sets `n` to zero. `radius` is r_e in m.
   [[nodiscard]] bool normal(S radius, Vector<S, D>& n) const {
     n = detail::first<D, S>(sum_);
     const S length = n.norm();
@@ -93,14 +93,13 @@ class MasterSurface {
   }
 
  private:
-  Quad sum_{};                         // of (dc/ds) A_j r_ij, and of c behind it
+  Quad sum_{};                         // of (dc/ds) A_j r_ij and, as its last number, of c
   Quad velocity_{};                    // of c v_j
   Quad inverse_[std::size_t{D}] = {};  // of c F_j^-1
 };
 
-/// r_im in m, \paper{34, 35, 36}: distance of the slave's centre from the master surface, which lies
-/// half a particle outside the outermost masters. `stretch` as of `MasterSurface::stretch`,
-/// `centres` is R_im.
+/// r_im in m, \paper{34, 35, 36}: distance of the slave's centre from the master surface, which lies half a particle
+/// outside the outermost masters. `stretch` is that of `MasterSurface::stretch`, and `centres` is R_im.
 template <class S>
 [[nodiscard]] S surface_distance(S stretch, S centres, S spacing) {
   return stretch * (centres - S(0.5) * spacing);

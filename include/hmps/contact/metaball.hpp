@@ -11,9 +11,9 @@ namespace hmps::inline HMPS_ABI {
 /// per pair):
 /// - `Kernel::radius`: the effective radius in spacings, `r_e / l0`;
 /// - `Kernel::value(s)`: c, falling from a positive value at 0 to 0 at 1;
-/// - `Kernel::slope(s)`: dc/ds, negative between.
+/// - `Kernel::slope(s)`: dc/ds, negative in between.
 ///
-/// Models: `PaperMetaball`, `SmoothMetaball`. Beyond `r_e` it is zero.
+/// Beyond `r_e` the kernel is zero. Models: `PaperMetaball`, `SmoothMetaball`.
 template <class Kernel>
 concept Metaball = requires(double s) {
   { Kernel::radius } -> std::convertible_to<double>;
@@ -22,7 +22,7 @@ concept Metaball = requires(double s) {
 };
 
 /// The paper's kernel, \paper{26}: c = 1 - (r / r_e)^2 with r_e = 1.75 l0; c(0) = 1. The gradient of the sum jumps
-/// where a particle enters r_e, so that a flat lattice wall is rough: at contact height its normal tilts by up to tan =
+/// where a particle enters r_e, so that a flat lattice wall is rough: at contact height its normal tilts by up to atan
 /// 0.37.
 struct PaperMetaball {
   static constexpr double radius = 1.75;
@@ -36,9 +36,9 @@ struct PaperMetaball {
   }
 };
 
-/// A smooth kernel, in place of \paper{26} where friction matters: c = (1 - (r / r_e)^2)^3 with r_e = 2.5 l0. Two
-/// continuous derivatives; over a flat lattice wall the normal tilts by at most tan = 0.008 at contact height. Reaches
-/// 2.9 times as many particles.
+/// A smooth kernel, to replace \paper{26} where friction matters: c = (1 - (r / r_e)^2)^3 with r_e = 2.5 l0. It has two
+/// continuous derivatives; over a flat lattice wall the normal tilts by at most atan 0.008 at contact height. It
+/// reaches 2.9 times as many particles as the paper's kernel.
 struct SmoothMetaball {
   static constexpr double radius = 2.5;
   template <class S>

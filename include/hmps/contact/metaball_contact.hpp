@@ -49,10 +49,10 @@ namespace hmps::inline HMPS_ABI {
 /// the report stays zero; strong deformation within a few steps, as in an impact at half the speed of sound, may be
 /// detected a few steps late.
 ///
-/// If `S` is narrower than the scalar type of the positions, such as float and double, positions are measured from an
+/// If `S` is narrower than the scalar type of the positions, such as float for double, positions are measured from an
 /// origin: zero, unless the centre of all organs is further than about a thousand spacings (float) from it when lists
-/// are built; then the origin moves there. It thus stays constant from step to step, and results change, by rounding
-/// only, each time that all organs have travelled that far.
+/// are built; then the origin moves to that centre. It thus stays constant from step to step, and results change, by
+/// rounding only, each time that all organs have travelled that far.
 ///
 /// Slaves with an undefined normal (deep inside) receive no force and are counted as deep; `check` reports them as an
 /// error.
@@ -91,7 +91,7 @@ class MetaballContact {
     return pair;
   }
 
-  /// Rebuilds all lists at the next call. Not needed after time steps.
+  /// Makes the next call rebuild all lists. Not needed after time steps.
   void refresh() {
     lists_.refresh();
     history_.next_call();
@@ -101,8 +101,8 @@ class MetaballContact {
   /// slave in contact is and, for `SpringFriction`, its elastic slip and the positions of the latest call. Store it in
   /// a checkpoint, or before calls that only probe the force.
   [[nodiscard]] std::vector<double> history() const;
-  /// Replaces the history by one that `history` returned, of a contact with the same settings, organs and pairs in the
-  /// same order: the next call returns the same bits as it would have there. Throws `InputError` for other numbers.
+  /// Replaces the history by one that `history` returned for a contact with the same settings, organs and pairs in the
+  /// same order. The next call then gives the same bits as it would there. Throws `InputError` for any other numbers.
   void restore_history(std::span<const double> history);
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
@@ -113,8 +113,8 @@ class MetaballContact {
   }
 
   /// Adds the contact force densities for the step `dt` (s) to `f`. Throws `InputError` for views of the wrong size, an
-  /// invalid step, a penalty that `S` cannot represent, organs of which no pair may touch, a spacing far below that of
-  /// an organ's particles at its first call, and if the deformation gradient of a particle of an organ is zero. Throws
+  /// invalid step, a penalty that `S` cannot represent, organs without any pair, a spacing far below that of an organ's
+  /// particles at its first call, and if the deformation gradient of a particle of an organ is zero. Throws
   /// `StateError` if a position or gradient, or the velocity of a particle near another organ, is not finite, or if
   /// your own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that `S` cannot
   /// invert, forms no wall.
@@ -132,11 +132,11 @@ class MetaballContact {
     return add_forces(x, v, detail::Undeformed<S, D>{}, f, dt, execute);
   }
 
-  /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to `add`
-  /// on zeros and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
+  /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to `add` on
+  /// zeros and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
   /// `prescribed` particles keep their velocity. Density `rho` in kg/m3: a number, a view or a callable. Throws as
   /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1;
-  /// for a `PenaltyLaw` of your own, with the largest stiffness that its pair meets.
+  /// for a `PenaltyLaw` of your own, k is the largest stiffness that occurs in its pair.
   template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
   ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
                         double dt, const E& execute = {}) {
@@ -148,7 +148,7 @@ class MetaballContact {
     if constexpr (is_linear) require_heavy(rho, dt);
     const ContactReport<S> report = survey(x, v, F, dt, execute);
     if (report.contacts == 0) return report;
-    if constexpr (!is_linear) require_heavy(rho, dt);  // of what touches
+    if constexpr (!is_linear) require_heavy(rho, dt);  // with the stiffness of the rows that touch
     hand_out(
         [&](const typename detail::ActiveRows<S>::Awake& own, const Point& force) {
           if (own.flags & detail::is_prescribed) return;
@@ -161,8 +161,8 @@ class MetaballContact {
 
   /// Throws a `StateError` if, by the latest `report`, a wall has lost a slave: time (s, if given), particle, organ,
   /// depth and remedy. Costs one comparison. Call it after each evaluation: a slave that passes through a thin wall is
-  /// inside it for a few steps only, and looks valid afterwards. Nothing is missed that moves less than a spacing per
-  /// step relative to the wall, which holds for all speeds below that of sound.
+  /// inside it for a few steps only, and looks valid afterwards. The check misses no slave that moves less than a
+  /// spacing per step relative to the wall, which holds for all speeds below that of sound.
   void check(const ContactReport<S>& report, double time = std::numeric_limits<double>::quiet_NaN()) const {
     if (report.deep > 0) fail(report, time);
   }
@@ -182,8 +182,8 @@ class MetaballContact {
   }
 
   /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second in the latest call:
-  /// the force of the second organ on the first. Each particle has the volume l0^D. Throws `InputError` for a pair that
-  /// is not there.
+  /// the force of the second organ on the first. Each particle has the volume l0^D. Throws `InputError` if there is no
+  /// such pair.
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const;
 
   /// Calls `visit(touch)` with a `Touch<D>` for each slave in contact in the latest call, once per organ that it
@@ -219,7 +219,7 @@ class MetaballContact {
   };
   struct PairLaw {
     S stiffness, damping, friction;
-    double largest;  // stiffness of the law in N/m4, of the rows that touch; 0 for `LinearPenalty`
+    double largest;  // stiffness of the law over the rows that touch, in N/m4; 0 for `LinearPenalty`
   };
   static constexpr std::size_t batch = 8, gather_batch = 64;  // rows per batch: few, because quiet scenes have few
 
@@ -275,7 +275,7 @@ class MetaballContact {
   ContactSettings settings_;
   [[no_unique_address]] Penalty penalty_;
   std::vector<PairSetting> own_;  // per pair: overrides `settings_`
-  std::vector<PairLaw> laws_;     // per pair, for the present call
+  std::vector<PairLaw> laws_;     // per pair, for the current call
   std::size_t seen_organs_ = 0;   // by `require_scene`
   Lists lists_;
   std::vector<detail::Master<S, D>> masters_;  // per awake particle

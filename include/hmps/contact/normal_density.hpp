@@ -15,7 +15,7 @@
 namespace hmps::inline HMPS_ABI {
 
 /// The normal density function Z(y), \paper{27}, and its inverse, \paper{29}: the distance of a slave from the
-/// outermost layer of a wall, from the sum of metaballs there.
+/// outermost layer of a wall, given the sum of metaballs at the slave.
 ///
 /// The standard wall is a simple cubic (2D: square) lattice that fills the half space y <= 0, with its outermost
 /// particles at y = 0. Z is averaged over the position of the slave along the wall. (The paper does not specify where
@@ -23,15 +23,15 @@ namespace hmps::inline HMPS_ABI {
 /// over a layer becomes an integral over its plane.
 ///
 /// The inverse is a table with smooth interpolation (relative error below 1e-6 l0). Z falls monotonically only near the
-/// surface: below `deepest()`, where its slope has dropped to a quarter of the steepest, it saturates and does not
-/// determine the depth. The inverse then stays at `deepest()` and flags the slave as deep.
+/// surface: below `deepest()`, where its slope has dropped to a quarter of the steepest, it saturates and no longer
+/// determines the depth. The inverse then stays at `deepest()` and flags the slave as deep.
 template <class S, int D, Metaball Kernel = PaperMetaball>
 class NormalDensity {
  public:
   /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite, and for a kernel that forms no wall.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
     detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
-                    " m; give the particles' positive distance in the reference configuration");
+                    " m; give the positive distance between neighbouring particles in the reference configuration");
     find_deepest();
     const double top = in_spacings(deepest_);
     detail::require(detail::is_finite(top) && top > 0 && least_slope_ > 0,
@@ -79,8 +79,8 @@ class NormalDensity {
     return {spacing_ * y, true, false};
   }
 
-  /// A quarter of the steepest -dZ/dy in 1/m: where the sum falls less across a wall, a slave is deep inside, also in a
-  /// wall too thin for Z to saturate.
+  /// A quarter of the steepest -dZ/dy, in 1/m. Where the sum falls less steeply across a wall, a slave is deep inside,
+  /// even if the wall is too thin for Z to saturate.
   [[nodiscard]] S least_slope() const { return static_cast<S>(least_slope_) / spacing_; }
   /// l0 in m.
   [[nodiscard]] S spacing() const { return spacing_; }
@@ -131,8 +131,7 @@ class NormalDensity {
     least_slope_ = -0.25 * steepest;
   }
 
-  /// Finds y between `low` and the reach with Z(y) = `density`: secant steps from `low`, bisection if they leave the
-  /// bracket.
+  /// Finds y between `low` and the reach with Z(y) = `density`, by false position with a bisection in every third step.
   [[nodiscard]] static double solve(double density, double low) {
     double high = Kernel::radius, at_low = in_spacings(low) - density, at_high = -density, y = low;
     for (int i = 0; i < 60 && high - low > 1e-13; ++i) {

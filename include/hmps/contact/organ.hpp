@@ -30,13 +30,13 @@ struct Organ {
   /// Whether a particle follows a forced displacement, so that forces do not move it (default: none). Read by
   /// `CorrectedFriction`, damping and `MetaballContact::kick`.
   std::function<bool(Index)> prescribed{};
-  /// r_0 in m of a slave, \paper{37}: how far its surface lies from its centre before it is deformed (default: half
-  /// the spacing of the contact, so that undeformed slaves are spheres that touch at the spacing). For layers that lie
-  /// closer or wider, half of that: `[&](Index i) { return fitted.layer_spacings[i] / 2; }`.
+  /// r_0 in m of a slave, \paper{37}: the distance of its surface from its centre before it deforms (default: half the
+  /// spacing of the contact, so that undeformed slaves are spheres that touch one spacing apart). For layers that lie
+  /// closer or wider, give half their spacing: `[&](Index i) { return fitted.layer_spacings[i] / 2; }`.
   std::function<double(Index)> radius{};
 };
 
-/// Which organ of a pair has slaves. The paper uses both, \paper{43}.
+/// Which organs of a pair have slaves. In the paper both do, \paper{43}.
 enum class Roles { both, only_first_is_slave, only_second_is_slave };
 
 /// Settings of a pair of organs.
@@ -44,26 +44,27 @@ struct PairSettings {
   Roles roles = Roles::both;
   /// Slaves of either organ that do not take part in this pair: see `exclude_attached`.
   std::span<const Index> excluded_slaves{};
-  /// `excluded(slave, master)`: these two never touch. Called when lists are built, from any thread.
+  /// `excluded(slave, master)`: whether these two never touch. Called when lists are built, from any thread.
   std::function<bool(Index, Index)> excluded{};
   std::optional<double> friction{};             ///< mu_tan of this pair, if not that of `ContactSettings`.
   std::optional<PenaltyStiffness> stiffness{};  ///< k of this pair, if not that of `ContactSettings`.
 };
 
-/// The slaves of `slaves` whose reference position lies within `distance` (m) of that of a particle of `attachment`:
-/// the particles of the other organ that are bonded to the slaves' organ. Where two organs grow together, their
+/// Those of `slaves` whose reference position lies within `distance` (m) of that of a particle of `attachment`, which
+/// lists the particles of the other organ that are bonded to the slaves' organ. Where two organs grow together, their
 /// surfaces must not push each other apart. The distance is in metres, so that it does not shrink with the spacing. The
-/// result is sorted by index, for `PairSettings::excluded_slaves`. Throws `InputError` for a bad index or distance.
+/// result is sorted by index, for `PairSettings::excluded_slaves`. Throws `InputError` for an index out of range and a
+/// distance that is not positive and finite.
 template <class T, int D>
 [[nodiscard]] std::vector<Index> exclude_attached(const VectorView<T, D>& reference, std::span<const Index> slaves,
                                                   std::span<const Index> attachment, double distance) {
   using S = typename VectorView<T, D>::Scalar;
-  detail::require(detail::is_finite(distance) && distance > 0, "hmps: the distance of excluded slaves is ", distance,
+  detail::require(detail::is_finite(distance) && distance > 0, "hmps: the distance for excluding slaves is ", distance,
                   " m; give a positive length");
   for (const auto list : {slaves, attachment})
     for (const Index i : list)
-      detail::require(i < reference.size(), "hmps: particle ", i, " is excluded from contact but there are only ",
-                      reference.size(), " particles");
+      detail::require(i < reference.size(), "hmps: particle ", i, " is given to exclude_attached but there are only ",
+                      reference.size(), " reference positions; give indices into their view");
   detail::Grid<S, D> grid;
   grid.build(attachment.size(), static_cast<S>(distance), [&](std::size_t k) { return reference[attachment[k]]; });
   std::vector<Index> out;

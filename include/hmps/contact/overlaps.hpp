@@ -23,15 +23,15 @@ namespace hmps::inline HMPS_ABI {
 /// How far the slaves of one organ reach into the wall of another: a result of `MetaballContact::overlaps`.
 ///
 /// Near the surface the depth is the penetration of \paper{38}. Deeper inside it is estimated from the slaves of the
-/// wall's organ, which must form its surface: up to four spacings deep, to about half a spacing, and not behind edges,
-/// so that `count` includes only slaves that are certainly inside. Slaves behind a thin wall whose far side has no
-/// slaves count as inside. For a wall whose organ has no slaves, only the metaballs are used.
+/// wall's organ, which must form its surface. This works to within about half a spacing, up to four spacings deep, but
+/// not behind edges, so that `count` includes only slaves that are certainly inside. Slaves behind a thin wall whose
+/// far side has no slaves count as inside. For a wall whose organ has no slaves, only the metaballs are used.
 struct Overlap {
-  std::size_t pair;             ///< As numbered by `add_pair`.
+  std::size_t pair;             ///< As returned by `add_pair`.
   std::string slaves, masters;  ///< Names of the organs.
   std::size_t count = 0;        ///< Slaves that reach into the wall.
-  Index deepest = 0;            ///< The deepest of them,
-  double depth = 0;             ///< its depth in m.
+  Index deepest = 0;            ///< The deepest of these slaves.
+  double depth = 0;             ///< The depth of that slave in m.
 };
 
 namespace detail {
@@ -46,7 +46,7 @@ struct OverlapParticles {
 };
 
 /// The outward direction of a surface: for each particle of `skin`, the unit vector away from the surrounding masters;
-/// zero if these lie on all sides, as in a wall of one layer.
+/// zero if masters lie on all sides, as in a wall of one layer.
 template <int D>
 [[nodiscard]] HMPS_COLD std::vector<Vector<double, D>> outward_of(const OverlapParticles<D>& skin,
                                                                   const OverlapParticles<D>& masters, double spacing) {

@@ -13,17 +13,17 @@
 namespace hmps::inline HMPS_ABI {
 
 /// The penalty coefficient k in N/m4 (force density per penetration). `ratio` is the paper's choice, \paper{25}:
-/// halving the step makes the wall four times stiffer, and increases its chatter. `fixed` belongs to the scene and does
-/// not depend on the step; `ratio(0.3)` at step dt0 equals `fixed(0.3 * density / (dt0 * dt0))`. Either way k~ = k dt^2
-/// / rho must be below 1. The stable step of the scene falls to about dt_c sqrt(1 - k~), and a tenth less for k~ near
-/// 0.75; `stable_step` computes it. With a `PenaltyLaw` of your own, the stiffness of the law takes the place of k in
-/// this limit.
+/// halving the step makes the wall four times stiffer, and increases its chatter. `fixed` is a property of the scene
+/// and does not depend on the step; `ratio(0.3)` at step dt0 equals `fixed(0.3 * density / (dt0 * dt0))`. Either way,
+/// k~ = k dt^2 / rho must be below 1. If the stable step is dt_c without contact, contact lowers it to about dt_c
+/// sqrt(1 - k~), and a tenth less for k~ near 0.75; `stable_step` computes it. With a `PenaltyLaw` of your own, the
+/// stiffness of the law takes the place of k in this limit.
 class PenaltyStiffness {
  public:
   /// k = k~ rho / dt^2. Throws `InputError` unless 0 < k~ < 1.
   [[nodiscard]] static PenaltyStiffness ratio(double k_tilde) {
     detail::require(k_tilde > 0 && k_tilde < 1, "hmps: the penalty ratio k~ is ", k_tilde,
-                    "; it must lie between 0 and 1 (contact is unstable from 1 on); the paper has 0.3");
+                    "; it must lie between 0 and 1 (contact is unstable at 1 and above); the paper uses 0.3");
     return {k_tilde, true};
   }
   /// k in N/m4. Throws `InputError` unless positive and finite.
@@ -37,7 +37,7 @@ class PenaltyStiffness {
   [[nodiscard]] double coefficient(double density, double dt) const {
     return is_ratio_ ? value_ * density / (dt * dt) : value_;
   }
-  /// The same. Throws `InputError` if a fixed k is too stiff.
+  /// The same, but throws `InputError` if a fixed k is so stiff that k~ reaches 1.
   [[nodiscard]] double at(double density, double dt) const {
     if (is_ratio_) return coefficient(density, dt);
     detail::require(value_ * dt * dt < density, "hmps: a penalty of ", value_,
@@ -55,13 +55,13 @@ class PenaltyStiffness {
 
 /// How the wall pushes: the normal force density as a function of the penetration. A law has two functions of the
 /// penalty coefficient k (N/m4), the penetration p > 0 (m) and the spacing l0 (m):
-/// - `law.force(k, p, l0)`: the force density in N/m3, from zero at p = 0 on, never negative;
+/// - `law.force(k, p, l0)`: the force density in N/m3, which starts from zero at p = 0 and is never negative;
 /// - `law.largest_stiffness(k, p, l0)`: the largest slope of the force up to p, in N/m4. It takes the place of k in the
 ///   condition k~ < 1, which is checked at each penetration that occurs.
 ///
-/// Both are const or static and depend on nothing that changes, because any thread calls them. They are called with
-/// `double`, whatever the scalar of the contact. `PenaltyStiffness::ratio` means something only to laws that are
-/// proportional to k. Satisfied by `LinearPenalty`.
+/// Both must be const or static and must not depend on anything that changes, because any thread may call them. They
+/// are called with `double`, whatever the scalar of the contact. `PenaltyStiffness::ratio` is meaningful only for laws
+/// that are proportional to k. Model: `LinearPenalty`.
 template <class Law>
 concept PenaltyLaw = requires(const Law& law, double k, double p, double l0) {
   { law.force(k, p, l0) } -> std::convertible_to<double>;
@@ -75,15 +75,15 @@ struct LinearPenalty {
 };
 
 namespace detail {
-/// A trait, since clang names the type in the message of one, but not of a concept.
+/// A trait, because clang names the type if a trait fails, but not if a concept does.
 template <class Law>
 struct IsPenaltyLaw : std::bool_constant<PenaltyLaw<Law>> {};
-/// Fails if `Law` is none, with its name in the first line of the message.
+/// Fails to compile unless `Law` is a `PenaltyLaw`; the first line of the message names `Law`.
 template <class Law>
 struct RequirePenaltyLaw {
   static_assert(IsPenaltyLaw<Law>::value,
                 "hmps: a penalty law needs force(k, p, l0) in N/m3 and largest_stiffness(k, p, l0) in N/m4, const or "
-                "static, of the penalty coefficient, the penetration and the spacing");
+                "static, where k is the penalty coefficient, p the penetration and l0 the spacing");
   static constexpr bool value = true;
 };
 }  // namespace detail
@@ -114,9 +114,9 @@ template <class S, int D>
   return velocity - velocity.dot(n) * n;
 }
 
-/// Friction force density in N/m3, \paper{23, 40}: along the tangential velocity `v` of the wall
-/// relative to the slave (so it drags the slave along), of `limit` = mu |f_nor| at most, and of
-/// `stick` v otherwise, where `stick` is a share of rho / dt. Zero where nothing slides.
+/// Friction force density in N/m3, \paper{23, 40}, along the tangential velocity `v` of the wall relative to the slave,
+/// so that it drags the slave along: `stick` v, where `stick` is a share of rho / dt, but at most `limit` = mu |f_nor|.
+/// Zero where nothing slides.
 template <class S, int D>
 [[nodiscard]] Vector<S, D> friction_force(const Vector<S, D>& v, S stick, S limit) {
   const S speed = v.norm();
@@ -152,8 +152,8 @@ struct PaperFriction {
 /// (infinitely heavy). The share of contact i is 1 / (N_i + sum_l w_il N_l): the inverse absolute row sum of the matrix
 /// that maps tangential impulses to relative velocities. That matrix is symmetric and non-negative, so a step with
 /// these shares multiplies each of its modes by a factor between 0 and 1; if all contacts of a sheet slide alike, the
-/// factor is 0. Two free particles in both roles: a quarter; against a prescribed one: a half; each twice that in one
-/// role.
+/// factor is 0. For two particles in both roles the share is a quarter if both are free, and a half if one is
+/// prescribed; in a single role it is twice that.
 struct CorrectedFriction {
   static constexpr bool needs_load = true;
   template <class S>

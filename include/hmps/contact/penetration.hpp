@@ -15,8 +15,8 @@ template <class S, int D>
   return radius * (F.transpose() * normal).norm();
 }
 
-/// Penetration p in m, \paper{38}: `support` is r_i, `distance` r_im of the slave's centre from the
-/// master surface; zero where they do not touch.
+/// Penetration p in m, \paper{38}: `support` is r_i, and `distance` is r_im, that of the slave's centre from the master
+/// surface. Zero if they do not touch.
 template <class S>
 [[nodiscard]] S penetration(S support, S distance) {
   return support > distance ? support - distance : S(0);

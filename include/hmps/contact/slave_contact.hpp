@@ -16,7 +16,7 @@
 /// masters are found and where results go.
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The data of a master that determine the distance of its wall; in float one cache line.
+/// The data of a master that determine the distance of its wall; one cache line in float.
 template <class S, int D>
 struct alignas(64) Master {
   Quad<S> x, A[std::size_t{D}];  // position in m, and the columns of A = F^-T F^-1
@@ -39,13 +39,13 @@ struct Wall {
 /// Result of `slave_contact`.
 template <class S, int D>
 struct SlaveContact {
-  S penetration = 0;  ///< p in m, \paper{38}; if zero, there is no contact and only `lost` is set besides.
+  S penetration = 0;  ///< p in m, \paper{38}; if zero, there is no contact, and only `lost` and `depth` are valid.
   Vector<S, D> slip;  ///< v_im in m/s, \paper{31}.
   S over_density;     ///< 1 / C_im
-  /// The slave is so deep that the direction outwards is undefined, or that there is no normal.
+  /// The slave is so deep that the outward direction is undefined or that there is no normal.
   bool lost = false;
-  S depth = 0;               ///< Its depth then, in m: p, or that of an undeformed wall if there is no normal.
-  bool inside;               ///< Its centre is within 0.6 spacings of the outermost layer of the wall.
+  S depth = 0;               ///< In m: p or, without a normal, the depth in an undeformed wall.
+  bool inside;               ///< Its centre is less than 0.6 spacings above the outermost layer of the wall.
   Vector<float, D> outward;  ///< The normal before the rotation of the masters.
 };
 
@@ -92,8 +92,8 @@ template <class S, int D, Metaball Kernel, class Gradient, class Velocity>
   contact.penetration = contact.depth = p;
   contact.slip = surface.relative_velocity(velocity());  // (31)
   contact.over_density = S(1) / surface.density();
-  // Where the sum falls less than it should across a wall, the direction outwards is undefined. In a wall of one layer
-  // this happens within 0.6 spacings; further away the sum falls little, too.
+  // Where the sum falls too little across a wall, the outward direction is undefined. In a wall of one layer this
+  // happens within 0.6 spacings; further out the sum falls little as well, but there the slave is not inside.
   contact.inside = centres.value < S(0.6) * l0;
   contact.lost =
       centres.deep || (contact.inside && surface.gradient(over_radius_squared).norm() * stretch < Z.least_slope());

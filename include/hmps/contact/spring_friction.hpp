@@ -11,31 +11,31 @@ namespace hmps::inline HMPS_ABI {
 
 /// Coulomb friction with a tangential spring per slave and wall, as in penalty contact of finite elements (Wriggers,
 /// Computational Contact Mechanics, 2006, chapter 6) and in discrete elements (Cundall and Strack 1979). An extension:
-/// the paper's law, like `CorrectedFriction`, takes a share of the slip velocity only, so that it resists a load only
-/// while something slips, and creeps. Here the elastic slip, the relative motion of slave and wall while they stick, is
-/// stored and carries the load at rest.
+/// the paper's law, like `CorrectedFriction`, takes only a share of the slip velocity; it resists a load only while
+/// something slips, and therefore creeps. Here the elastic slip, the relative motion of slave and wall while they
+/// stick, is stored and carries the load at rest.
 ///
 /// The force is `spring_friction`, with the share of `CorrectedFriction` as damping, the largest that does not reverse
 /// the slip within a step. The stiffness is the penalty coefficient k of the pair, so that with `LinearPenalty` the
-/// elastic slip is at most mu times the penetration: walls yield tangentially as little as normally. It is limited
-/// where the spring would take back more than the whole elastic slip within a step. Below twice that limit, a mode that
-/// the share stops at once is stable at every step that is stable without contact.
+/// elastic slip is at most mu times the penetration: walls yield as little tangentially as normally. The stiffness is
+/// limited so that the spring does not take back more than the whole elastic slip within a step. Below twice that
+/// limit, a mode that the damping stops in one step is stable at every step that is stable without contact.
 ///
-/// Spring and damper share the limit, so that a slave that slows down sticks below it and not at it: the friction of
-/// slaves at the limit follows their normal force, which feeds vibrations. A body without viscosity can keep shaking
-/// and slide below the limit all the same; see docs/theory.md.
+/// Spring and damper share the limit, so that a slave that slows down comes to stick below the limit and not at it: at
+/// the limit, friction follows the normal force, which feeds vibrations. Even so, a body without viscosity can keep
+/// shaking and slide below the limit; see docs/theory.md.
 ///
-/// Elastic slip follows the positions that contact receives, whoever moves them. It rotates with the masters. It is
-/// lost where contact is lost, and by `refresh`. Evaluating the same state twice keeps it, but a wall that rotates then
-/// seems to stand still, which changes the damping. Contact stores the positions of all particles of organs for it.
+/// Elastic slip follows the positions that contact receives, whatever moves them. It rotates with the masters. It is
+/// lost where contact is lost, and by `refresh`. Evaluating the same state again keeps it, but a rotating wall then
+/// seems to stand still, which changes the damping. For this, contact stores the positions of all particles of organs.
 ///
-/// A program that is stopped and resumed stores `MetaballContact::history` with its state. What probes a force at
-/// displaced positions, as `stable_step` and `step_causes` do, moves the elastic slip too: in the middle of a run
+/// A program that is to be stopped and resumed must store `MetaballContact::history` with its state. Probing the force
+/// at displaced positions, as `stable_step` and `step_causes` do, moves the elastic slip too: in the middle of a run,
 /// restore the history afterwards.
 struct SpringFriction : CorrectedFriction {
   static constexpr bool has_spring = true;
   /// Default of `ContactSettings::damping`. Slaves at the friction limit can excite normal vibrations of a wall,
-  /// because their force follows the penetration; normal damping suppresses them.
+  /// because their friction follows the penetration; normal damping suppresses them.
   static constexpr double damping = 0.3;
 };
 
@@ -47,7 +47,7 @@ inline constexpr bool has_spring = requires {
   requires Law::has_spring;
 };
 
-/// The normal damping of `Law` as a fraction of critical, if the settings do not specify it.
+/// The normal damping of `Law` as a fraction of critical, which applies if the settings specify none.
 template <class Law>
 [[nodiscard]] constexpr double damping_of() {
   if constexpr (requires { Law::damping; })
@@ -66,12 +66,12 @@ struct SpringForce {
   bool sticks;           ///< Whether the force is below the limit.
 };
 
-/// Friction by return mapping: a spring and a damper in parallel, in front of a slider. The spring has the elastic slip
-/// `trial` (m, of the wall relative to the slave) and the stiffness `stiffness` (N/m4), the damper the slip velocity
-/// `velocity` (m/s) and `damping` (N s/m4). If their force exceeds `limit` = mu |f_nor| (N/m3), the slider moves: the
-/// force is cut to the limit, and the spring is shortened to what the damper leaves of it, but not reversed. A slave
-/// that slows down thus sticks below the limit and not at it. Both vectors are tangential; without stiffness no elastic
-/// slip remains.
+/// Friction by return mapping: a spring and a damper in parallel, in series with a slider. The spring has the elastic
+/// slip `trial` (m, of the wall relative to the slave) and the stiffness `stiffness` (N/m4), the damper the slip
+/// velocity `velocity` (m/s) and `damping` (N s/m4). If their force exceeds `limit` = mu |f_nor| (N/m3), the slider
+/// moves: the force is cut to the limit, and the spring is shortened to what the damper leaves of the limit, but not
+/// reversed. A slave that slows down thus sticks below the limit and not at it. Both vectors are tangential; without
+/// stiffness no elastic slip remains.
 template <class S, int D>
 [[nodiscard]] SpringForce<S, D> spring_friction(const Vector<S, D>& trial, const Vector<S, D>& velocity, S stiffness,
                                                 S damping, S limit) {

@@ -9,7 +9,7 @@
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 
-/// Errors of contact about an invalid state. Called only for particles with suspicious numbers.
+/// The errors that contact throws for an invalid state. Called only for particles with suspicious numbers.
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `StateError` if the deformation gradient `F` of particle `i` is not finite, and `InputError` if it is zero,
@@ -20,8 +20,8 @@ HMPS_COLD void require_gradient(const Matrix<double, D>& F, Index i) {
     throw StateError(message("hmps: contact found the deformation gradient of particle ", i, " to be (by columns) ", F,
                              "; the run has become unstable: try a shorter step or a softer penalty"));
   require(!F.isZero(0), "hmps: the deformation gradient of particle ", i,
-          " is zero, so that contact sees no wall there: is `record(F)` among the terms, and evaluated before contact "
-          "is? Particles that do not deform need the identity");
+          " is zero, so that contact sees no wall there: is `record(F)` among the terms, and are they evaluated before "
+          "contact? Particles that do not deform need the identity");
 }
 
 /// Throws `StateError` if the position `x` (m) or the velocity `v` (m/s) of particle `i` is not finite.

@@ -34,15 +34,15 @@ class SurfaceCorrection {
  public:
   /// @param reference  reference positions in m
   /// @param skin       the outermost particles: the slaves of the organ
-  /// @param shape      `shape(x)`, about the signed distance to the surface in m, negative inside
+  /// @param shape      `shape(x)`, approximately the signed distance to the surface in m, negative inside
   /// @param spacing    l0 in m
-  /// Throws `InputError` for a particle that does not exist or lies further than 1.5 spacings from where it should,
-  /// where the shape does not tell which way is out, and where most particles lie outside of it: it is inside out.
+  /// Throws `InputError` for a particle that does not exist or lies further than 1.5 spacings from its proper place, if
+  /// the shape does not tell which way is out, and if most particles lie outside the shape: it is inside out.
   template <class T, class Shape>
   SurfaceCorrection(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
     detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
-                    " m; give the particles' positive distance in the reference configuration");
+                    " m; give the positive distance between neighbouring particles in the reference configuration");
     std::size_t outside = 0;
     for (const Index i : skin_) {
       detail::require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
@@ -51,19 +51,19 @@ class SurfaceCorrection {
       const auto offset = offset_of(start, shape, spacing);
       detail::require(
           offset.has_value(), "hmps: particle ", i, " at (", start.transpose(), ") cannot be raised to the surface: ",
-          "it is not of the outermost layer, or the shape does not tell which way is out there; leave it out, or "
-          "give about the signed distance in m");
+          "it is not in the outermost layer, or the shape does not tell which way is out there; leave the particle "
+          "out, or give a shape that is about the signed distance in m");
       offset_.push_back(offset->template cast<S>());
       particles_ = std::max(particles_, std::size_t{i} + 1);
       outside += distance(shape, start) > 0;
     }
     detail::require(2 * outside <= skin_.size(), "hmps: ", outside, " of ", skin_.size(),
-                    " particles of a skin lie outside of the shape that they are raised to; is it inside out? It must "
-                    "be negative inside");
+                    " particles of a skin lie outside the shape to which they are raised; is it inside out? A shape "
+                    "must be negative inside");
   }
 
-  /// The offset in m of a particle at `start`; empty if it is further than 1.5 spacings from its place or the shape
-  /// gives no direction outwards.
+  /// The offset in m of a particle at `start`; empty if the particle is further than 1.5 spacings from its proper place
+  /// or the shape gives no outward direction.
   template <class Shape>
   [[nodiscard]] static std::optional<Vector<double, D>> offset_of(const Vector<double, D>& start, const Shape& shape,
                                                                   double spacing) {
@@ -91,7 +91,7 @@ class SurfaceCorrection {
     require_size(x, x.size(), "positions");
     detail::require(x.size() >= particles_, "hmps: particle ", particles_ - 1,
                     " has a corrected surface but the views hold ", x.size(),
-                    " particles; give views of all particles, as the reference positions were");
+                    " particles; give views of all particles, like that of the reference positions");
     require_size(F, x.size(), "deformation gradients");
     require_size(places, x.size(), "places for contact");
     require_apart(places, "places for contact", x, "positions");
@@ -116,7 +116,7 @@ class SurfaceCorrection {
 
   std::vector<Index> skin_;
   std::vector<Vector<S, D>> offset_;
-  std::size_t particles_ = 0;  // that the views must hold at least
+  std::size_t particles_ = 0;  // least number that the views must hold
 };
 
 }  // namespace hmps::inline HMPS_ABI

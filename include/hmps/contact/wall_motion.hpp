@@ -15,10 +15,11 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The motion of a wall at a slave and relative to it: the rigid motion that fits its masters best, by weighted least
-/// squares. Their common motion must be subtracted before: where masters do not determine a rotation, its rounding
-/// would become one. The mean motion of the masters, \paper{31}, is that of their centre, half a spacing or more behind
-/// the surface, and differs from that at the slave if the wall rotates.
+/// The motion of a wall at a slave, relative to the slave: the rigid motion that best fits the wall's masters, by
+/// weighted least squares. The motion that slave and masters share must be subtracted first: where the masters do not
+/// determine a rotation, its rounding errors would appear as one. The mean motion of the masters, \paper{31}, is that
+/// of their centre, half a spacing or more behind the surface, and differs from the motion at the slave if the wall
+/// rotates.
 template <class S, int D>
 class WallMotion {
  public:
@@ -27,8 +28,9 @@ class WallMotion {
 
   /// `spacing` in m.
   explicit WallMotion(S spacing) : spacing_(spacing) {}
-  /// Adds a master of weight `w` (they sum to 1) at `r` from the slave, in spacings, that moves by `moved` (m) relative
-  /// to it; both padded with zeros. `r` is that at the middle of the motion, which makes rotations of any angle exact.
+  /// Adds a master of weight `w` (the weights sum to 1) at `r` from the slave, in spacings, that moves by `moved` (m)
+  /// relative to the slave; both vectors are padded with zeros. `r` is the one at the middle of the motion, which makes
+  /// rotations of any angle exact.
   HMPS_INLINE void add(S w, const Quad<S>& r, const Quad<S>& moved) {
     const Quad<S> weighted = r * w;
     middle_ += weighted;
@@ -88,7 +90,7 @@ class WallMotion {
 template <class S, int D>
 class ParticleMotion {
  public:
-  /// The particles `awake` of all `particle`; both ascend.
+  /// Chooses the particles `awake` from all `particle`; both ascend.
   template <class Awake>
   void choose(const std::vector<Index>& particle, const std::vector<Awake>& awake) {
     number_.clear();
@@ -98,7 +100,7 @@ class ParticleMotion {
       number_.push_back(static_cast<Index>(n));
     }
   }
-  /// Stores the positions `x` (m) of this call. Displacements are zero in the first call.
+  /// Stores the positions `x` (m) of this call and updates the displacements, which are zero in the first call.
   template <class X, class E>
   void update(const X& x, const std::vector<Index>& particle, const E& execute) {
     const bool known = place_.size() == particle.size();
@@ -114,7 +116,7 @@ class ParticleMotion {
   }
   /// The positions in m of all particles at the latest call; none before the first.
   [[nodiscard]] const std::vector<Vector<double, D>>& places() const { return place_; }
-  /// Takes `places` for those of the latest call.
+  /// Takes `places` as the positions at the latest call.
   void restore(std::vector<Vector<double, D>> places) { place_ = std::move(places); }
   /// The displacement in m of an active particle.
   [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }

@@ -33,14 +33,14 @@ class ControlRegion {
  public:
   /// The particles are a list of indices in any order, or a `ParticleSet`. Throws `InputError` if the region has no
   /// particle or an empty function as motion, and for an index out of range, a repeated index, a reference position
-  /// that is not finite, or a set of another number of particles.
+  /// that is not finite, or a set made for another number of particles.
   ControlRegion(std::vector<Index> particles, const VectorView<const S, D>& reference, M motion)
       : particles_(std::move(particles)), reference_(reference), motion_(std::move(motion)) {
     detail::require(!particles_.empty(), "hmps: a control region has no particles; give it some, or leave it out");
     require_view(reference, "reference positions");
     if constexpr (std::is_same_v<M, std::function<Pose<double, D>(double)>>)
       detail::require(static_cast<bool>(motion_),
-                      "hmps: the motion of a control region is an empty function; give it one");
+                      "hmps: the motion of a control region is an empty function; give it a motion");
     std::vector<Index> sorted = particles_;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 0; k < sorted.size(); ++k) {
@@ -55,9 +55,10 @@ class ControlRegion {
 
   ControlRegion(const ParticleSet& particles, const VectorView<const S, D>& reference, M motion)
       : ControlRegion(particles.indices(), reference, std::move(motion)) {
-    detail::require(particles.scene_size() == reference.size(), "hmps: the set of particles of a control region is of ",
-                    particles.scene_size(), " particles, but there are ", reference.size(),
-                    " reference positions; make both of the same scene");
+    detail::require(particles.scene_size() == reference.size(),
+                    "hmps: the set of particles of a control region is for ", particles.scene_size(),
+                    " particles, but there are ", reference.size(),
+                    " reference positions; make both for the same scene");
   }
 
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
@@ -66,18 +67,19 @@ class ControlRegion {
   /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` if `k` is out of
   /// range.
   [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
-    detail::require(k < particles_.size(), "hmps: the place of particle ", k,
-                    " of a control region is asked for, but it has ", particles_.size(), " particles, counted from 0");
+    detail::require(k < particles_.size(), "hmps: the position of particle ", k,
+                    " of a control region is asked for, but the region has ", particles_.size(),
+                    " particles, counted from 0");
     return motion_(t)(reference_[particles_[k]].template cast<double>());
   }
 
-  /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed position at
-  /// `t` (s), the time at the end of the step. Call it after the last kick and before the drift; in a scene with
-  /// contact, also before the contact. Internal forces kick a prescribed particle like any other, and a wall with such
-  /// a velocity would cause friction where it does not move. Rounding errors in `x` do not accumulate over steps.
+  /// Sets the velocities `v` (m/s) of the region's particles so that x + v `dt` is their prescribed position at `t`
+  /// (s), the time at the end of the step. Call it after the last kick and before the drift; in a scene with contact,
+  /// also before the contact. Internal forces kick a prescribed particle like any other, and a wall with the resulting
+  /// velocity would cause friction although it does not move. Rounding errors in `x` do not accumulate over steps.
   ///
-  /// Throws `InputError` for a `Pose` that does not rotate, `StateError`, with particle and speed, if the motion
-  /// exceeds `speed_limit` (m/s) or is not finite, as it may when a run starts in the middle of a motion without
+  /// Throws `InputError` for a `Pose` whose matrix is not a rotation, and `StateError`, with particle and speed, if the
+  /// motion is not finite or exceeds `speed_limit` (m/s), as it may when a run starts in the middle of a motion without
   /// `place`.
   template <class X, class V, Executor E = Serial>
   void prescribe(const VectorView<X, D>& x, const VectorView<V, D>& v, double t, double dt, double speed_limit,
@@ -99,14 +101,14 @@ class ControlRegion {
       const Vector<double, D> rate = (target - x[i].template cast<double>()) * per_step;
       const double squared = rate.squaredNorm();
       if (!detail::is_finite(squared) || squared > largest)
-        throw StateError(detail::message("hmps: a control region asks particle ", i, " for ", rate.norm(),
-                                         " m/s to be at (", target.transpose(), ") at ", t,
+        throw StateError(detail::message("hmps: a control region requires particle ", i, " to move at ", rate.norm(),
+                                         " m/s to reach (", target.transpose(), ") at ", t,
                                          " s; check its keyframes, or place the region where the run starts"));
       v.set(i, rate);
     });
   }
 
-  /// The same without a limit of speed.
+  /// The same without a speed limit.
   template <class X, class V, Executor E = Serial>
   void prescribe(const VectorView<X, D>& x, const VectorView<V, D>& v, double t, double dt,
                  const E& execute = {}) const {
@@ -123,7 +125,7 @@ class ControlRegion {
 
   /// Moves the region's particles to their prescribed positions at time `t` (s), with the velocity of the motion
   /// (central difference over 2 microseconds). Use it to start a run in the middle of a motion. Throws `InputError` for
-  /// views of other sizes and a time that is not finite, and `StateError` for a motion that is not finite then.
+  /// views of the wrong size and a time that is not finite, and `StateError` for a motion that is not finite at `t`.
   template <class X, class V>
   void place(const VectorView<X, D>& x, const VectorView<V, D>& v, double t) const {
     require_size(x, reference_.size(), "positions");

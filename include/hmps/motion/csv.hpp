@@ -69,8 +69,8 @@ void for_each_cell(std::string_view line, Use&& use) {
 /// Parses comma-separated numbers: a header line of distinct column names, then one row per line with one finite number
 /// per column. Ignores blank lines, text after `#` and blanks around cells; lines may end in CR LF. `source` names the
 /// text in messages. Throws `InputError` with source, line and column at the first cell that is not a finite number,
-/// and for rows with too few or too many cells, empty or repeated column names, columns that something else than commas
-/// separates, and text without a header.
+/// and for rows with too few or too many cells, empty or repeated column names, columns separated by something other
+/// than commas, and text without a header.
 [[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
   Table table;
   table.source = std::move(source);
@@ -94,11 +94,11 @@ void for_each_cell(std::string_view line, Use&& use) {
             double number{};
             return detail::parse_number(std::string_view(name), number);
           }))
-        fail("the first line, '", detail::printable(line), "', holds numbers alone; it must name the columns");
+        fail("the first line, '", detail::printable(line), "', holds only numbers; it must name the columns");
       if (table.names.size() == 1 && line.find_first_of(";\t") != std::string_view::npos)
         fail("'", detail::printable(line),
-             "' is the name of one column; separate columns by commas, with points in the "
-             "numbers");
+             "' is the name of one column; separate columns by commas, and use points as "
+             "decimal marks");
       continue;
     }
     std::size_t cell_number = 0;
@@ -131,13 +131,13 @@ template <std::size_t N>
 [[nodiscard]] Keyframes<static_cast<int>(N)> keyframes(const Table& table, const std::array<std::string_view, N>& names,
                                                        double scale = 1, std::string_view time = "t") {
   detail::require(detail::is_finite(scale) && scale != 0, "hmps: the keyframes of ", table.source,
-                  " are to be scaled by ", scale, "; give a factor that is not zero, 1e-3 for millimetres");
+                  " are to be scaled by ", scale, "; give a factor that is not zero, such as 1e-3 for millimetres");
   const std::size_t clock = table.column(time);
   std::array<std::size_t, N> columns{};
   for (std::size_t c = 0; c < N; ++c) {
     columns[c] = table.column(names[c]);
     detail::require(columns[c] != clock, "hmps: the column '", time, "' of ", table.source,
-                    " is to be both time and value of keyframes; name another for one of them");
+                    " is to be both time and value of keyframes; name another column for one of them");
   }
   detail::require(table.rows() > 0, "hmps: ", table.source, " has a header but no row; give at least one keyframe");
   std::vector<Keyframe<static_cast<int>(N)>> keys(table.rows());

@@ -15,8 +15,8 @@
 /// drift. For particles with prescribed motion see `ControlRegion`.
 namespace hmps::inline HMPS_ABI {
 
-/// Sets the velocities `v` (m/s) of the particles of `held` to zero: a clamp. Throws `InputError` for a set of another
-/// number of particles.
+/// Sets the velocities `v` (m/s) of the particles of `held` to zero: a clamp. Throws `InputError` for a set made for
+/// another number of particles.
 template <class V, int D>
 void hold(const VectorView<V, D>& v, const ParticleSet& held) {
   require_size(v, held.scene_size(), "velocities");
@@ -25,13 +25,13 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 }
 
 /// Sets component `c` of the velocities `v` (m/s) of the particles of `held` to `velocity` (m/s): with zero, a plane of
-/// symmetry or a frictionless guide across that axis. Throws `InputError` for a component that does not exist, a
-/// velocity that is not finite and a set of another number of particles.
+/// symmetry or a frictionless guide perpendicular to that axis. Throws `InputError` for a component that does not
+/// exist, a velocity that is not finite and a set made for another number of particles.
 template <class V, int D>
 void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
   require_size(v, held.scene_size(), "velocities");
-  detail::require(0 <= c && c < D, "hmps: component ", c,
-                  " of a velocity is to be held, but there are the components 0 to ", D - 1);
+  detail::require(0 <= c && c < D, "hmps: component ", c, " of a velocity is to be held, but the components are 0 to ",
+                  D - 1);
   detail::require(detail::is_finite(velocity), "hmps: component ", c, " of a velocity is to be held at ", velocity,
                   " m/s; give a finite number");
   using S = typename VectorView<V, D>::Scalar;
@@ -40,14 +40,14 @@ void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, d
 
 /// Removes the component along `normal` (of any nonzero length) from the velocities `v` (m/s) of the particles of
 /// `held`: a plane of symmetry or a frictionless guide at any angle. Throws `InputError` for a normal that is zero or
-/// not finite and for a set of the wrong size.
+/// not finite and for a set made for another number of particles.
 template <class V, int D, class Derived>
 void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen::MatrixBase<Derived>& normal) {
   require_size(v, held.scene_size(), "velocities");
   const Vector<double, D> given = normal.template cast<double>();
   const double length = given.norm();
   detail::require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (", given.transpose(),
-                  "); give a direction of finite length");
+                  "); give a direction of finite, nonzero length");
   const Vector<double, D> n = given / length;
   for (const Index i : held) {
     const Vector<double, D> own = v[i].template cast<double>();

@@ -16,7 +16,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The value of a track: a number for `N` = 1, otherwise an array of `N` numbers.
+/// A time, and the value of a track at that time: a number for `N` = 1, otherwise an array of `N` numbers.
 template <int N>
 struct Keyframe {
   using Value = std::conditional_t<N == 1, double, Vector<double, N>>;
@@ -27,11 +27,11 @@ struct Keyframe {
 /// Interpolates keyframes. Each component is the monotone cubic of Fritsch and Carlson (slopes from the weighted
 /// harmonic mean of Fritsch and Butland), with zero slope at both ends, and constant before the first and after the
 /// last keyframe. Value and rate are continuous; no component overshoots a keyframe, and a component that is equal in
-/// two neighbouring keyframes is constant between them. Always in double: evaluating a motion is cheap, and time in
+/// two neighbouring keyframes is constant between them. Always in double: evaluating a motion is cheap, and a time in
 /// float loses steps.
 ///
 /// A run that starts after the first keyframe starts in the middle of the motion. Move its regions to that time first
-/// (`ControlRegion::place`); otherwise the first step makes up for the motion before it.
+/// (`ControlRegion::place`); otherwise the first step catches up on all the motion before it.
 template <int N>
 class Keyframes {
  public:

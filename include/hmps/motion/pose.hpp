@@ -31,7 +31,7 @@ template <class S>
 }
 
 namespace detail {
-/// sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, as series where the quotients would cancel.
+/// sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, as series where the quotients would suffer cancellation.
 template <class S>
 struct RotationCoefficients {
   S first, second, third;
@@ -83,16 +83,16 @@ struct Pose {
 };
 
 namespace detail {
-/// Throws `InputError` if the matrix of `pose` at `time` (s) is no rotation. Passes what is not finite, and what is no
-/// `Pose` and need not be rigid.
+/// Throws `InputError` if the matrix of `pose` at `time` (s) is not a rotation. Accepts a matrix that is not finite,
+/// and any map other than a `Pose`, which need not be rigid.
 template <class S, int D>
 void require_rigid(const Pose<S, D>& pose, double time) {
   const Matrix<S, D> excess = pose.rotation * pose.rotation.transpose() - Matrix<S, D>::Identity();
   require(
       !all_finite(excess) || (excess.norm() < S(1e-3) && determinant(pose.rotation) > S(0)),
       "hmps: the rotation of a pose at ", time, " s is the matrix (by columns) ", pose.rotation,
-      ", which is none; give one that is orthogonal with the determinant 1, as rotation(vector) makes it, or return "
-      "a lambda in place of a Pose for a motion that is not rigid");
+      ", which is not a rotation; give an orthogonal matrix with determinant 1, such as rotation(vector) returns, or "
+      "return a lambda instead of a Pose for a motion that is not rigid");
 }
 template <class Map>
 void require_rigid(const Map&, double) {}

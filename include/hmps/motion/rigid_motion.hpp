@@ -45,13 +45,13 @@ struct Turn {
   Vector<double, 3> pivot;
   Vector<double, 3> axis;
   Track angle;
-  /// A template, so that only programs that call it compile it.
+  /// A template, so that it is compiled only in programs that call it.
   template <class T = double>
   [[nodiscard]] Pose<T, 3> operator()(std::type_identity_t<T> t) const {
     const Vector<T, 3> about = axis;
     const T length = about.norm();
-    detail::require(detail::is_finite(length) && length > 0, "hmps: a turn is about the axis (", about.transpose(),
-                    "); give a direction of finite length");
+    detail::require(detail::is_finite(length) && length > 0, "hmps: the axis of a turn is (", about.transpose(),
+                    "); give a direction of finite, nonzero length");
     return {rotation<T>(Vector<T, 3>(angle.value(t) * about.normalized())), pivot, Vector<T, 3>::Zero()};
   }
 };

@@ -18,8 +18,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The neighbours of every particle in one array: those of particle `i`, sorted by index, are
-/// `neighbour[offset[i]]` up to `neighbour[offset[i + 1] - 1]`. Particle `i` is not among its own.
+/// The neighbours of every particle in one array: those of particle `i`, sorted by index, are `neighbour[offset[i]]` up
+/// to `neighbour[offset[i + 1] - 1]`. Particle `i` is not among its own neighbours.
 struct NeighbourList {
   std::vector<std::size_t> offset{0};
   std::vector<Index> neighbour;
@@ -53,7 +53,7 @@ struct PointSet {
 template <class S>
 class WithinRadius {
  public:
-  // Versions of nanoflann after 1.4 ask for these, and for `sort`.
+  // Versions of nanoflann after 1.4 require these, and `sort`.
   using DistanceType = S;
   using IndexType = Index;
   WithinRadius(S squared_radius, std::vector<Index>& found) : squared_radius_(squared_radius), found_(found) {}
@@ -111,7 +111,7 @@ class FixedRadiusSearch {
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<Scalar, Points>, Points, D, Index>;
 
  public:
-  /// Builds the tree over `points` (m). Throws `InputError` at a position that is not finite.
+  /// Builds the tree over `points` (m). Throws `InputError` for a position that is not finite.
   explicit FixedRadiusSearch(const VectorView<T, D>& points) : points_{points}, tree_(D, checked(points_)) {}
   FixedRadiusSearch(const FixedRadiusSearch&) = delete;
   FixedRadiusSearch& operator=(const FixedRadiusSearch&) = delete;
@@ -136,7 +136,7 @@ class FixedRadiusSearch {
   }
 
   /// Distance (m) from `particle` to its nearest neighbour; infinite if there is none. Throws `InputError` for a
-  /// particle that is not there.
+  /// particle that does not exist.
   [[nodiscard]] Scalar nearest(std::size_t particle) const {
     detail::require(particle < points_.points.size(), "hmps: the nearest neighbour of particle ", particle,
                     " is asked for, but there are only ", points_.points.size(), " particles");
@@ -167,8 +167,8 @@ class FixedRadiusSearch {
 };
 
 namespace detail {
-/// Throws `InputError` for a `radius` (m) so large that lists of neighbours would fill the memory, as in another unit:
-/// with more than 4000 neighbours a particle, as many as within ten spacings, and 1e8 of them in all.
+/// Throws `InputError` for a `radius` (m) so large that lists of neighbours would fill the memory, as it may be in
+/// another unit: with at least 4000 neighbours per particle, as many as within ten spacings, and at least 1e8 in all.
 template <class Search, class S>
 void require_listable(const Search& search, S radius) {
   constexpr std::size_t most_samples = 64;
@@ -178,8 +178,8 @@ void require_listable(const Search& search, S radius) {
     sum += static_cast<double>(search.count(search.points()[k * n / samples], radius)) - 1;
   const double mean = samples > 0 ? sum / static_cast<double>(samples) : 0;
   require(mean < 4000 || mean * static_cast<double>(n) < 1e8, "hmps: within the search radius of ", radius,
-          " m, a particle has ", mean, " neighbours, and all ", n, " particles ", mean * static_cast<double>(n),
-          "; give a radius of a few spacings, in the unit of the positions");
+          " m, a particle has ", mean, " neighbours on average, and all ", n, " particles have ",
+          mean * static_cast<double>(n), "; give a radius of a few spacings, in the unit of the positions");
 }
 }  // namespace detail
 

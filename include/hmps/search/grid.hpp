@@ -28,7 +28,8 @@ class Grid {
   /// `InputError` if a point or the extent of all points is not finite, and if the edge is not positive.
   template <class Position>
   void build(std::size_t n, S cell, Position&& position) {
-    require(is_finite(cell) && cell > 0, "hmps: the cell of a search grid is ", cell, " m; give a positive radius");
+    require(is_finite(cell) && cell > 0, "hmps: the cells of a search grid are ", cell,
+            " m wide; give a positive radius");
     require(n < std::numeric_limits<Index>::max(), "hmps: ", n, " points are more than a 32-bit index can number");
     raw_.resize(n);
     lowest_ = Point::Constant(std::numeric_limits<S>::max());
@@ -52,7 +53,7 @@ class Grid {
     }
     const Point extent = highest - lowest_;
     require(all_finite(extent), "hmps: the points of a search grid span more than ", std::numeric_limits<S>::max(),
-            " m; look for positions that are no lengths in metres");
+            " m; look for positions that are not in metres");
     double count = 0;
     for (const double most = 4. * static_cast<double>(n) + 64;; cell *= S(1.26)) {
       count = 1;

@@ -39,18 +39,19 @@ template <class T, int D>
 
 namespace detail {
 
-/// A hint to append to an error that a wrong `spacing` (m) may have caused; empty if `points` agree with it within
-/// `tolerance`, a share of it. The nearest neighbours in clouds that are no lattice scatter by a tenth.
+/// A hint to append to an error that a wrong `spacing` (m) may have caused; empty if `points` agree with it to within
+/// `tolerance`, as a share of it. In clouds that are not a lattice, the distances of nearest neighbours scatter by a
+/// tenth.
 template <class T, int D>
 [[nodiscard]] std::string spacing_hint(const VectorView<T, D>& points, double spacing, double tolerance = 0.01) {
   const double found = nearest_spacing(points);
   if (found == 0 || std::abs(found / spacing - 1) < tolerance) return "";
-  return message("; the nearest neighbours lie ", found, " m apart, ", found / spacing, " of the spacing of ", spacing,
-                 " m that was given: is the spacing ", found, " m?");
+  return message("; the nearest neighbours lie ", found, " m apart, ", found / spacing, " times the spacing of ",
+                 spacing, " m that was given: is the spacing ", found, " m?");
 }
 
-/// Throws `InputError` if `spacing` (m), which `what` was given, is not about that of the particles at `points` (m),
-/// within a factor `most`.
+/// Throws `InputError` if `spacing` (m), which was given to `what`, is not that of the particles at `points` (m) to
+/// within a factor of `most`.
 template <class T, int D>
 void require_spacing_of(const VectorView<T, D>& points, double spacing, const char* what, double most = 4) {
   const double found = nearest_spacing(points);

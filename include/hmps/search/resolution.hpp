@@ -11,8 +11,8 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Throws `InputError` where the scalar of `points` (m) is too coarse, so far from the origin, to resolve a `share` of
-/// the `spacing` (m). With more than a hundredth small motions are rounded away.
+/// Throws `InputError` if the scalar type of `points` (m) is too coarse to resolve a `share` of the `spacing` (m) at
+/// their distance from the origin. If it resolves only more than a hundredth, small motions are rounded away.
 template <class T, int D>
 void require_resolved(const VectorView<T, D>& points, double spacing, double share = 0.01) {
   using S = typename VectorView<T, D>::Scalar;
@@ -20,7 +20,7 @@ void require_resolved(const VectorView<T, D>& points, double spacing, double sha
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int c = 0; c < D; ++c)
       require(std::abs(static_cast<double>(points(i, c))) <= furthest, "hmps: particle ", i, " lies at ", points(i, c),
-              " m, where its scalar type resolves no more than ", share, " of the spacing of ", spacing,
+              " m, where its scalar type does not resolve ", share, " of the spacing of ", spacing,
               " m; take positions in double, or an origin near the body");
 }
 

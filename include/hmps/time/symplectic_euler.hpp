@@ -10,7 +10,7 @@
 #include "hmps/core/step.hpp"
 #include "hmps/core/view.hpp"
 
-/// Time integration of the equation of motion, \paper{1}: symplectic Euler with contact between the half steps,
+/// Time integration of the equation of motion, \paper{1}: symplectic Euler with a separate kick for contact,
 /// \paper{2, 3, 4}, as functions to compose:
 ///
 ///     force(x, v, f);               kick(v, f, rho, dt);     // v* of Eq. (2)
@@ -18,7 +18,7 @@
 ///     contact.add(x, v, F, f, dt);  kick(v, f, rho, dt);     // Eq. (3)
 ///     drift(x, v, dt);                                       // Eq. (4)
 ///
-/// The order of the calls defines the scheme. The functions do not know any force. Every particle moves; forced
+/// The order of the calls defines the scheme. The functions know nothing about forces. Every particle moves; forced
 /// displacements prescribe velocities between the last kick and the drift.
 namespace hmps::inline HMPS_ABI {
 
@@ -27,9 +27,9 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// @param v    velocities in m/s, changed
 /// @param f    force densities in N/m3
-/// @param rho  density in kg/m3, one number or a `ScalarView` with one per particle
+/// @param rho  density in kg/m3: a number, a `ScalarView` with one per particle, or a callable (`PerParticle`)
 /// @param dt   time step in s, positive
-/// Throws `InputError` for views of different sizes, a density or a step that is not positive.
+/// Throws `InputError` for views of different sizes, and for a density or a step that is not positive.
 template <class T, class U, int D, PerParticle Rho, Executor E = Serial>
 void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, double dt, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: kick changes the velocities; give it a writable view of them");
@@ -51,7 +51,7 @@ void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, 
 /// @param x   positions in m, changed
 /// @param v   velocities in m/s
 /// @param dt  time step in s, positive
-/// Throws `InputError` for views of different sizes or a step that is not positive.
+/// Throws `InputError` for views of different sizes, and for a step that is not positive.
 template <class T, class U, int D, Executor E = Serial>
 void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: drift changes the positions; give it a writable view of them");

@@ -12,7 +12,7 @@
 /// Lattice boxes for the tests of contact.
 namespace bodies {
 
-/// What a test is typed over.
+/// The types over which a typed test runs.
 template <class S_, int D_, class Ball_>
 struct Case {
   using S = S_;
@@ -22,7 +22,7 @@ struct Case {
 
 using hmps::Index;
 
-/// Runs loops forwards or backwards, and counts them. One type for all tests, to compile once.
+/// Runs loops forwards or backwards, and counts them. A single type for all tests, so that it is compiled only once.
 struct Loops {
   bool backwards = false;
   std::size_t* count = nullptr;
@@ -45,7 +45,7 @@ struct Scene {
     std::vector<Index> lower, upper;  // the two lowest and highest layers
   };
 
-  /// A box of `counts` particles at distance `l0` from `corner` on; the last axis is upright.
+  /// A box of `counts` particles with spacing `l0`, whose lowest corner is `corner`; the last axis is upright.
   Box add(const hmps::Vector<int, D>& counts, const Point& corner, S l0) {
     Box box;
     const int height = counts[D - 1];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much contact shakes what it presses: a rigid plate is pressed 1.2 spacings into a block of three
-// layers on a bonded one, then slides. Prints the table of docs/theory.md.
+// How much contact shakes the body that it presses: a rigid plate is pressed 1.2 spacings into a block of three layers
+// on a bonded one, then slides. Prints the table of docs/theory.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ Chatter slide(double ratio, double damping) {
   return result;
 }
 
-/// All dampings of one kernel and penalty ratio; the mean square speed.
+/// Runs all dampings of one kernel and penalty ratio. Returns the sum of the mean square speeds.
 template <class Ball>
 double measure(const char* name, double ratio) {
   double squares = 0;
@@ -99,7 +99,7 @@ double measure(const char* name, double ratio) {
   return squares;
 }
 
-// The runs are chaotic: what holds is the order, not the figures.
+// The runs are chaotic: only the order of the figures is reproducible, not their values.
 TEST(Chatter, IsLessWithSmoothMetaballs) {
   std::printf("| kernel | k~ | damping | largest speed, m/s | rms, m/s | sticking | F_t / F_n |\n");
   std::printf("|---|---|---|---|---|---|---|\n");

@@ -54,8 +54,8 @@ TYPED_TEST(ContactBits, AreTheSameInAnyOrderAndHoweverOldTheLists) {
   EXPECT_GT(contacts, 100U);
 }
 
-/// A plate is pressed into a block bonded below until contact chatters; positions after the last step and
-/// the largest speed on the way.
+/// Presses a plate into a block held below until contact chatters. Returns the positions after the last step and the
+/// largest speed on the way.
 std::pair<std::vector<hmps::Vector<double, 3>>, double> pressed(bool fresh_lists) {
   bodies::Scene<double, 3> scene;
   const double l0 = 2.4e-3, step = 2.2e-5;

@@ -74,8 +74,7 @@ TYPED_TEST(ContactTest, PushesTheBodiesApartAndSumsToZero) {
   });
   EXPECT_EQ(touches, report.contacts);
   EXPECT_LT((on_first - contact.force_on_first(pair)).norm(), 1e-12 * up * volume);
-  // Reactions act at the masters' centres, so the torque need not vanish; how much of it is left is
-  // recorded: its arm, in spacings.
+  // Reactions act at the masters' centres, so the torque need not vanish; the rest is recorded as its arm in spacings.
   if constexpr (D == 3) {
     Eigen::Vector3d torque = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < pile.x.size(); ++i)
@@ -135,13 +134,13 @@ TYPED_TEST(ContactTest, FarBodiesCostNothingAndChangeNothing) {
     EXPECT_EQ(report.candidates, 0U);
     EXPECT_EQ(report.rebuilds, 1U);
   }
-  // The first call looks at the bodies; the others do a single loop, over no masters at all.
+  // The first call looks at the bodies; each of the others runs a single loop, over no masters at all.
   EXPECT_LE(loops, 50U + 5U);
   EXPECT_EQ(pile.magnitude(), S(0));
 }
 
-/// The relative slip of two sheets of free particles, 0.02 m/s before, after one step of sticking: at
-/// the middle, where the sheets know no edge.
+/// The relative slip velocity of two sheets of free particles after one step of sticking, from 0.02 m/s before it: in
+/// the middle, where the edges of the sheets have no influence.
 template <class Friction>
 double slip_after_one_step(int layers) {
   bodies::Scene<double, 3> scene;
@@ -158,7 +157,7 @@ double slip_after_one_step(int layers) {
   EXPECT_EQ(report.sticking, report.contacts);
   EXPECT_GE(report.contacts, 200U);
   for (std::size_t i = 0; i < scene.x.size(); ++i) scene.v[i] += scene.f[i] * dt / 1000;
-  // The slave right in the middle and the wall that it sees.
+  // The slave in the exact middle and the wall that it sees.
   const Index slave = above.bottom[6 * 13 + 6];
   hmps::Vector<double, 3> sum = hmps::Vector<double, 3>::Zero();
   double C = 0;
@@ -172,7 +171,7 @@ double slip_after_one_step(int layers) {
 }
 
 TEST(Stick, CorrectedFrictionStopsSheetsAndThePapersReversesThem) {
-  // All slaves of a single layer slide alike: exactly zero. With two layers the wall's inner layer is
+  // All slaves of a single layer slide alike, so the slip stops exactly. With two layers, the wall's inner layer is
   // accelerated less, and a remainder of the right sign is left.
   EXPECT_NEAR(slip_after_one_step<CorrectedFriction>(1), 0, 1e-12);
   EXPECT_NEAR(slip_after_one_step<CorrectedFriction>(2), 0, 0.1 * 0.02);
@@ -212,8 +211,8 @@ TEST(Friction, IsTheCoefficientTimesTheNormalForceWhereItSlides) {
     for (const Index i : pile.block.all) on_block += pile.f[i];
     drag[mu > 0] = -on_block[0] / on_block[2];
   }
-  // Frictionless drag is the tilt of the normals, 0.012 at most at this height on an endless wall; the
-  // block's own edges, seen by the plate's slaves, tilt theirs.
+  // Frictionless drag is the tilt of the normals: at most 0.012 at this height on an endless wall. The block's edges
+  // tilt the normals that the plate's slaves see.
   EXPECT_NEAR(drag[0], 0, 0.1);
   EXPECT_NEAR(drag[1] - drag[0], 0.2, 0.02);
 }
@@ -241,7 +240,7 @@ TEST(Stretch, AMasterStretchedTwiceIsTouchedTwiceAsFarAway) {
     bodies::Pile<double, 3> pile(gap);
     for (const Index i : pile.plate.all) pile.F[i] *= 2;
     for (const Index i : pile.block.all) pile.F[i] *= 2;
-    // A block and a plate of half the particles, so to speak: all lengths double.
+    // As if the spacing of block and plate were doubled: all lengths double.
     for (auto& x : pile.x) {
       x[0] *= 2;
       x[1] *= 2;
@@ -296,8 +295,8 @@ TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
   EXPECT_EQ(scene.magnitude(), 0);
 }
 
-/// Three organs, pressed on each other in both roles, that move and deform: every force is that of the
-/// equations taken literally, on whatever lists it was found.
+/// Three organs, pressed onto each other in both roles, move and deform: every force is that of the equations taken
+/// literally, whichever lists it was found on.
 template <class Ball, class Friction>
 void compare_with_plain(int power, bool corrected, const std::function<double(Index)>& radius = {}) {
   using Scene = bodies::Scene<double, 3>;
@@ -338,8 +337,8 @@ void compare_with_plain(int power, bool corrected, const std::function<double(In
     EXPECT_EQ(report.contacts, expected.contacts) << "step " << step;
     contacts += report.contacts;
     sticking += report.sticking;
-    // Z^-1 is right within 1e-6 l0; a stretch of 1.2, friction, and all reactions on a particle, a few times
-    // the force of one slave, multiply that.
+    // Z^-1 is accurate to 1e-6 l0. This error is multiplied by a stretch of 1.2, by friction, and by all reactions on a
+    // particle, a few times the force of one slave.
     for (std::size_t i = 0; i < scene.x.size(); ++i)
       EXPECT_LE((scene.f[i] - expected.f[i]).norm(), 6e-6 * l0 * literal.stiffness) << "step " << step << " of " << i;
   }
@@ -375,7 +374,7 @@ double error_far_away(double distance, bool through_far_away) {
   MetaballContact<S, 3> contact({.spacing = 2e-3, .density = 1000});
   pile.declare(contact);
   const hmps::Vector<double, 3> shift(distance, 0.5 * distance, -distance);
-  // Either it lies there from the beginning, or it travels there after lists were built at zero.
+  // Either it lies there from the beginning, or it travels there after lists have been built at zero.
   if (through_far_away) pile.apply(contact, dt);
   for (auto& x : pile.x) x += shift;
   pile.apply(contact, dt);
@@ -384,9 +383,9 @@ double error_far_away(double distance, bool through_far_away) {
 }
 
 TEST(Precision, FloatIsAsGoodFarFromZeroAsNearIt) {
-  // Float resolves places ten spacings from the origin to 10 eps spacings; the penetration is 0.05 spacings. As much
-  // from double, whose numbers at `distance` are 2e-16 of it apart. Where the middle of all is within about a thousand
-  // spacings of zero, as at 0.5 m, zero is the origin and places are resolved to 1e-4 spacings.
+  // Float resolves places ten spacings from the origin to 10 eps spacings; the penetration is 0.05 spacings. Double
+  // adds the rounding of its numbers at `distance`, which are 2e-16 of it apart. Where the middle of all particles is
+  // within about a thousand spacings of zero, as at 0.5 m, zero is the origin and places are resolved to 1e-4 spacings.
   const double near = 10 * static_cast<double>(std::numeric_limits<float>::epsilon()) / 0.05;
   for (const double distance : {0., 0.5, 10., 1000.}) {
     const double tolerance = distance == 0.5 ? 1e-4 / 0.05 : near + 2e-16 * distance / 1e-4;
@@ -406,7 +405,7 @@ TEST(Overload, UndeformedParticlesNeedNoGradients) {
   EXPECT_EQ(f, pile.f);
 }
 
-// Eq. (3): what the forces and `hmps::kick` give one after the other; what is prescribed follows no force.
+// Eq. (3): the same result as `add` followed by `hmps::kick`; prescribed particles follow no force.
 TEST(Kick, IsWhatTheForcesGive) {
   bodies::Pile<double, 3> pile(0.9);
   pile.shake(0.05, 0.03, 5);
@@ -438,7 +437,7 @@ TEST(Kick, IsWhatTheForcesGive) {
                hmps::InputError);
 }
 
-// Particles of unlike volumes: with the mass of each over l0^3 as its density, contact conserves momentum.
+// Particles of different volumes: with the mass of each over l0^3 as its density, contact conserves momentum.
 TEST(Kick, ConservesTheMomentumOfUnlikeVolumes) {
   bodies::Pile<double, 3> pile(0.9);
   pile.shake(0.05, 0.03, 5);
@@ -481,7 +480,7 @@ TEST(Kick, RefusesWhatIsTooLightForThePenalty) {
   EXPECT_TRUE(kick(hmps::scalars(rho), {.stiffness = hmps::PenaltyStiffness::ratio(0.09)}, false).empty());
   EXPECT_FALSE(kick(299, {}, false).empty());
   EXPECT_TRUE(kick(301, {}, false).empty());
-  // What is prescribed may have any density.
+  // Prescribed particles may have any density.
   rho.assign(rho.size(), 1000);
   for (const Index i : pile.plate.all) rho[i] = 1;
   EXPECT_FALSE(kick(hmps::scalars(rho), {}, false).empty());
@@ -489,7 +488,7 @@ TEST(Kick, RefusesWhatIsTooLightForThePenalty) {
 }
 
 TEST(SharedParticles, AParticleInTwoOrgansGathersBothContacts) {
-  // The left and the right half of the block are organs of their own, each with an organ of the plate's top.
+  // The left and the right half of the block are separate organs, each paired with its own organ of the plate's top.
   bodies::Pile<double, 3> pile(0.9);
   std::vector<Index> left, right, left_wall, right_wall;
   const auto is_left = [&](Index i) { return pile.x[i][0] < 4.5e-3; };
@@ -533,7 +532,7 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
   };
   Made made = make();
   const std::string again = message_of([&] { made.contact.add_pair(made.plate, made.block); });
-  EXPECT_NE(again.find("'plate' and 'block' already are contact pair 0"), std::string::npos) << again;
+  EXPECT_NE(again.find("'plate' and 'block' are already contact pair 0"), std::string::npos) << again;
   EXPECT_FALSE(message_of([&] { made.contact.add_pair(made.block, made.plate); }).empty()) << "reversed";
 
   const auto twin = made.contact.add_organ({.name = "twin", .slaves = bottom, .masters = lower, .prescribed = {}});
@@ -542,18 +541,18 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
   EXPECT_NE(twice.find(std::to_string(pile.plate.top.front())), std::string::npos) << twice;
   EXPECT_FALSE(message_of([&] { made.contact.add_pair(twin, made.plate); }).empty()) << "reversed";
 
-  // Of the two roles one is enough: slaves that the block has too, of the plate's masters.
+  // One of the two roles is enough: slaves that the block has too, at the plate's masters.
   const auto skin = made.contact.add_organ({.name = "skin", .slaves = bottom, .masters = {}, .prescribed = {}});
   const hmps::PairSettings second{.roles = hmps::Roles::only_second_is_slave};
   EXPECT_FALSE(message_of([&] { made.contact.add_pair(made.plate, skin, second); }).empty());
-  // What was refused has left nothing behind.
+  // The refused pairs have left nothing behind.
   bodies::Pile<double, 3> expected = pile, seen = pile;
   Made fresh = make();
   expected.apply(fresh.contact, dt);
   seen.apply(made.contact, dt);
   EXPECT_EQ(expected.f, seen.f);
 
-  // No slave meets the same master: slaves shared, masters not; or those that are shared are excluded.
+  // No slave meets the same master twice: slaves are shared but masters are not, or the shared ones are excluded.
   const auto lid = made.contact.add_organ({.name = "lid", .slaves = top, .masters = pile.plate.bottom});
   const auto other = made.contact.add_organ({.name = "other", .slaves = bottom, .masters = lower});
   EXPECT_NO_THROW(made.contact.add_pair(lid, other, second));
@@ -571,7 +570,7 @@ TEST(SharedParticles, NothingIsPushedTwiceByTheSame) {
 }
 
 TEST(Pairs, MayHaveFrictionAndStiffnessOfTheirOwn) {
-  // Two blocks on one plate, of which the plate is pulled away.
+  // Two blocks on one plate, which is pulled away.
   bodies::Scene<double, 3> scene;
   const auto plate = scene.add({14, 6, 2}, {0, 0, 0}, 1e-3);
   const auto left = scene.add({4, 4, 2}, {1.1e-3, 1.2e-3, 1.9e-3}, 1e-3);
@@ -685,7 +684,7 @@ TEST(Door, RefusesBadInput) {
   EXPECT_THROW(pile.apply(stiff, 2e-5), hmps::InputError);
 }
 
-/// Of a ratio that is given as a coefficient a wall does not push.
+/// With a ratio given as the coefficient, walls do not push.
 TEST(Door, RefusesAPenaltyOfNothing) {
   bodies::Pile<double, 3> pile(0.9);
   MetaballContact<double, 3> contact(
@@ -694,7 +693,7 @@ TEST(Door, RefusesAPenaltyOfNothing) {
   EXPECT_NE(message_of([&] { pile.apply(contact, dt); }).find("PenaltyStiffness::ratio"), std::string::npos);
 }
 
-/// Its organs are looked up by number.
+/// A report refers to organs by number.
 TEST(Door, RefusesTheReportOfAnotherContact) {
   const MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000});
   hmps::ContactReport<double> report;

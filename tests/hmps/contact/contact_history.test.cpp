@@ -15,9 +15,9 @@ TEST(ContactHistory, SeesThatAWallHasTurnedRound) {
   history.resize(2);
   EXPECT_FALSE(history.turned_round(0, up, false));
   history.next_call();
-  EXPECT_FALSE(history.turned_round(0, aside, true)) << "a quarter is not round";
+  EXPECT_FALSE(history.turned_round(0, aside, true)) << "a quarter turn is not a reversal";
   history.next_call();
-  EXPECT_TRUE(history.turned_round(0, down, true)) << "since it was last not inside";
+  EXPECT_TRUE(history.turned_round(0, down, true)) << "reversed since it was last not inside";
   EXPECT_FALSE(history.turned_round(1, down, true)) << "another slave";
 }
 
@@ -37,7 +37,7 @@ TEST(ContactHistory, TakesTheSideOfASlaveThatIsNotInside) {
   history.next_call();
   EXPECT_TRUE(history.turned_round(0, down, false));
   history.next_call();
-  EXPECT_FALSE(history.turned_round(0, down, true)) << "its side is the other one since";
+  EXPECT_FALSE(history.turned_round(0, down, true)) << "it has been on the other side since then";
 }
 
 TEST(ContactHistory, KeepsElasticSlipWhileTheSlaveTouches) {

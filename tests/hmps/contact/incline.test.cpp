@@ -88,7 +88,7 @@ Outcome slide(const Setting& setting) {
 
   const double angle = setting.degrees * pi / 180;
   const Point pull = gravity * Point(std::sin(angle), 0, -std::cos(angle));
-  // On stairs the block starts where they bear its weight; otherwise where it just touches.
+  // On a staircase the block starts where its weight is borne, otherwise where it just touches.
   const double weight = gravity * density * static_cast<double>(block.size());
   const auto shift = [&](double by) {
     for (const Index i : block) scene.x[i][2] += by;
@@ -109,7 +109,7 @@ Outcome slide(const Setting& setting) {
     Point force = Point::Zero();
     for (const Index i : block) force += scene.f[i];
     velocity += force * (dt / density / static_cast<double>(block.size()));
-    // On rails: the tilt across the slide does not steer the block.
+    // The block runs as if on rails: normals tilted sideways do not steer it.
     velocity[1] = 0;
     for (const Index i : block) scene.x[i] += velocity * dt;
     if (step == steps / 2) middle = velocity, outcome.moved = -scene.x[block[0]][0] / l0;
@@ -139,8 +139,8 @@ TEST(Incline, ExactIsTheTextbook) {
   EXPECT_NEAR(exact(0.3, 30), 2.3563, 1e-4);
 }
 
-/// The defaults hold the incline on both lattices. What is left is the tilt of the normals over the
-/// stretch that the block slid (1 to 6 spacings): 0.010 m/s2 at most were measured, a thousandth of g.
+/// The defaults pass on both lattices. The remaining error is the tilt of the normals over the distance that the block
+/// slid (1 to 6 spacings): at most 0.010 m/s2 was measured, a thousandth of g.
 TEST(Incline, SmoothWallAndCorrectedFrictionHoldIt) {
   for (const double turn : {0., 15 * pi / 180})
     for (const double friction : {0.1, 0.3})
@@ -154,8 +154,8 @@ TEST(Incline, SmoothWallAndCorrectedFrictionHoldIt) {
       }
 }
 
-/// Without damping the block keeps bouncing on the lattice's ripple, and the friction is that of a
-/// bouncing block: 0.06 m/s2 off at most were measured.
+/// Without damping the block keeps bouncing on the ripple of the lattice, and its friction is that of a bouncing block:
+/// errors of at most 0.06 m/s2 were measured.
 TEST(Incline, SmoothWallHoldsItWithoutDampingMoreCoarsely) {
   for (const double friction : {0.1, 0.3}) {
     const auto outcome =
@@ -164,23 +164,24 @@ TEST(Incline, SmoothWallHoldsItWithoutDampingMoreCoarsely) {
   }
 }
 
-/// How fast a sticking block creeps: (40) needs a slip v to hold, share rho v / dt in each of `contacts`, which
-/// together carry the pull on all 144 particles. The share is a half, since what touches the wall does so in both
-/// roles.
+/// How fast a sticking block creeps: to hold, (40) needs a slip velocity v, with the force share rho v / dt in each of
+/// `contacts`, which together carry the pull on all 144 particles. The share is a half, because particles that touch
+/// the wall do so in both roles.
 double creep(double degrees, double contacts) {
   return gravity * std::sin(degrees * pi / 180) * dt * 144 / (0.5 * contacts);
 }
 
-/// On a wall that is cut out of its lattice at an angle, its skin raised: what should hold does, what should slide does
-/// at the right rate. Of a soft block `benchmarks/walls` measured errors up to 0.047 m/s2, which come from the bumps
-/// that are left; twice that is allowed. This block is rigid and touches in fewer places.
+/// On a wall that is cut out of its lattice at an angle, with its skin raised, a block that should hold does, and one
+/// that should slide does so at the right rate. For a soft block, `benchmarks/walls` measured errors up to 0.047 m/s2,
+/// which come from the remaining bumps; this test allows twice that, because its block is rigid and touches in fewer
+/// places.
 TEST(Incline, SurfaceCorrectionHoldsItOnEveryCut) {
   for (const double cut : {15., 30., 45.}) {
     const auto held = slide<hmps::SmoothMetaball, hmps::CorrectedFriction>(
         {.friction = 0.3, .degrees = 10, .seconds = 0.16, .cut = cut, .raised = true});
     EXPECT_LT(std::abs(held.moved), 1.2 * 0.08 * creep(10, held.contacts) / l0)
         << cut << ", contacts " << held.contacts;
-    EXPECT_LT(std::abs(held.moved), 0.1) << "so that the bound above says something";
+    EXPECT_LT(std::abs(held.moved), 0.1) << "otherwise the bound above proves nothing";
     const auto slid = slide<hmps::SmoothMetaball, hmps::CorrectedFriction>(
         {.friction = 0.3, .degrees = 20, .seconds = 0.12, .cut = cut, .raised = true});
     EXPECT_NEAR(slid.acceleration, exact(0.3, 20), 0.1) << cut;
@@ -188,8 +189,8 @@ TEST(Incline, SurfaceCorrectionHoldsItOnEveryCut) {
   }
 }
 
-/// At 95 % of the limit the spring holds the block still: it is at rest to rounding, where the law of the velocity
-/// alone creeps by a tenth of a millimetre per second and more.
+/// At 95 % of the limit the spring holds the block still: it is at rest to rounding, whereas with `CorrectedFriction`
+/// it creeps by a tenth of a millimetre per second and more.
 TEST(Incline, SpringHoldsItUpToTheLimit) {
   constexpr double most = 0.01e-6;  // m/s
   for (const double friction : {0.1, 0.5, 1.0})
@@ -203,10 +204,10 @@ TEST(Incline, SpringHoldsItUpToTheLimit) {
     }
   const auto crept = slide<hmps::SmoothMetaball, hmps::CorrectedFriction>(
       {.friction = 0.5, .degrees = 0.95 * std::atan(0.5) * 180 / pi, .seconds = 0.16});
-  EXPECT_GT(crept.moved * l0 / 0.08, 1e-4) << "so that the bound above says something";
+  EXPECT_GT(crept.moved * l0 / 0.08, 1e-4) << "otherwise the bound above proves nothing";
 }
 
-/// Beyond the limit it slides as with the law of the velocity.
+/// Beyond the limit the block slides as with `CorrectedFriction`.
 TEST(Incline, SpringSlidesBeyondTheLimit) {
   for (const double friction : {0.1, 0.3}) {
     const auto outcome =
@@ -218,22 +219,22 @@ TEST(Incline, SpringSlidesBeyondTheLimit) {
   EXPECT_NEAR(just.acceleration, exact(0.5, 1.05 * std::atan(0.5) * 180 / pi), 0.02);
 }
 
-/// As cut it is a staircase, which stops what should slide.
+/// Without the correction the cut wall is a staircase, which stops a block that should slide.
 TEST(Incline, StairsStopIt) {
   const auto stopped = slide<hmps::SmoothMetaball, hmps::CorrectedFriction>(
       {.friction = 0.3, .degrees = 20, .seconds = 0.12, .cut = 15});
   EXPECT_LT(stopped.acceleration, exact(0.3, 20) - 0.3);
 }
 
-/// The paper's friction differs from the corrected one in stick only: at these angles, by nothing.
+/// The paper's friction differs from the corrected one only where particles stick: at these angles, not at all.
 TEST(Incline, SmoothWallAndPaperFrictionSlideAlike) {
   const auto outcome = slide<hmps::SmoothMetaball, hmps::PaperFriction>({.friction = 0.1, .degrees = 20});
   EXPECT_NEAR(outcome.acceleration, exact(0.1, 20), 0.02);
 }
 
-/// The washboard of the paper's metaballs: the block jumps from bump to bump and its acceleration has
-/// little to do with the coefficient (-1.1 to +0.1 m/s2 off were measured on this wall, -1.5 on one
-/// that is turned). The test is here to notice if that should ever be cured.
+/// The washboard of the paper's metaballs: the block jumps from bump to bump, and its acceleration has little to do
+/// with the coefficient (errors of -1.1 to +0.1 m/s2 were measured on this wall, and of -1.5 on a turned one). This
+/// test would notice if that were ever cured.
 TEST(Incline, PaperWallDoesNotHoldIt) {
   const auto outcome = slide<hmps::PaperMetaball, hmps::CorrectedFriction>({.friction = 0.1, .degrees = 20});
   EXPECT_GT(std::abs(outcome.acceleration - exact(0.1, 20)), 0.2);

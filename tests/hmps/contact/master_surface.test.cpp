@@ -92,8 +92,8 @@ TYPED_TEST(MasterSurfaceTest, SumIsEquation28AndNormalItsGradient) {
   const auto surface = this->at(place);
   const S epsilon = std::numeric_limits<S>::epsilon();
   EXPECT_NEAR(surface.density(), sum(place), S(100) * epsilon);
-  // Central difference: its rounding is epsilon C / h, its truncation h^2 C''' / 6 (0.3 h^2 for the
-  // smooth ball; the paper's has none).
+  // The rounding error of the central difference is epsilon C / h, its truncation error h^2 C''' / 6 (0.3 h^2 for the
+  // smooth metaball; zero for the paper's).
   const S h = std::cbrt(epsilon);
   Point gradient;
   for (int c = 0; c < TypeParam::D; ++c) {
@@ -120,7 +120,7 @@ TYPED_TEST(MasterSurfaceTest, DistanceOfAFlatWallIsTheHeightLessHalfAParticle) {
     Point n;
     ASSERT_TRUE(surface.normal(this->radius, n));
     const S distance = hmps::surface_distance(surface.stretch(n), Z.inverse(surface.density()).value, S(1));
-    // The bumps of the paper's wall are 0.085 spacings (2D: 0.2), those of the smooth one 0.01.
+    // The bumps of the paper's wall are 0.085 spacings high (2D: 0.2), those of the smooth one 0.01.
     constexpr bool paper = std::is_same_v<typename TypeParam::Ball, hmps::PaperMetaball>;
     EXPECT_NEAR(distance, y - S(0.5), paper ? 0.15 : 0.01);
   }

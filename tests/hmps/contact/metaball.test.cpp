@@ -19,7 +19,7 @@ TYPED_TEST(MetaballTest, FallsFromOneToZero) {
 TYPED_TEST(MetaballTest, SlopeIsTheDerivative) {
   constexpr double h = 1e-5;
   for (double s = 0.05; s < 1; s += 0.1)
-    // Cubic at most: the central difference is off by h^2 times a third derivative of 6 over 6.
+    // The kernels are at most cubic: the central difference errs by h^2 / 6 times a third derivative of 6.
     EXPECT_NEAR(TypeParam::slope(s), (TypeParam::value(s + h) - TypeParam::value(s - h)) / (2 * h), 2 * h * h + 1e-10);
 }
 

@@ -27,7 +27,7 @@ using Cases =
                      Case<double, 2, SmoothMetaball>, Case<float, 3, PaperMetaball>, Case<float, 2, SmoothMetaball>>;
 TYPED_TEST_SUITE(NormalDensityTest, Cases);
 
-/// Eq. (27) as printed: a slave above a lattice wall, averaged over its places along the wall.
+/// Eq. (27) as printed: the sum at a slave above a lattice wall, averaged over its places along the wall.
 template <int D, class Ball>
 double lattice_sum(double y) {
   constexpr int places = 40, n = 4;
@@ -49,7 +49,7 @@ TYPED_TEST(NormalDensityTest, IsTheAverageOverALatticeWall) {
   using S = typename C::S;
   const hmps::NormalDensity<S, C::D, typename C::Ball> Z(S(1.2e-3));
   for (const double y : {-0.7, -0.2, 0.3, 0.8, 1.3, 1.7})
-    // The midpoint rule over places leaves about (1/40)^2 where a kernel ends in a kink.
+    // The midpoint rule over places leaves an error of about (1/40)^2 where a kernel ends in a kink.
     EXPECT_NEAR(static_cast<double>(Z(S(y * 1.2e-3))), (lattice_sum<C::D, typename C::Ball>(y)), 2e-3) << y;
 }
 
@@ -58,8 +58,8 @@ TYPED_TEST(NormalDensityTest, InverseIsInverseFromDeepestToReach) {
   using S = typename C::S;
   const S l0 = S(1.2e-3);
   const hmps::NormalDensity<S, C::D, typename C::Ball> Z(l0);
-  // Interpolation to 2e-4 at the kinks of Z; in float the flat foot of Z near the reach loses the
-  // fourth root of the rounding.
+  // The interpolation error is 2e-4 at the kinks of Z; in float, the flat foot of Z near the reach loses the fourth
+  // root of the rounding error.
   const S tolerance = l0 * (std::is_same_v<S, float> ? S(2e-3) : S(2e-4));
   S last = std::numeric_limits<S>::max();
   for (S y = Z.deepest() + l0 * S(0.01); y < l0 * S(C::Ball::radius - 0.1); y += l0 * S(0.013)) {

@@ -25,7 +25,7 @@ TEST(Overlaps, NoneWhereBodiesDoNotTouch) {
   for (const double gap : {1.05, 1.5, 3., 20.}) EXPECT_TRUE(overlaps(Pile(gap)).empty()) << gap;
 }
 
-/// From a tenth of a spacing to three of them, which contact does not see at all.
+/// From a tenth of a spacing to three spacings, where contact no longer sees the overlap at all.
 TEST(Overlaps, TellTheDepthAndTheDeepest) {
   for (const double gap : {0.9, 0.5, -0.2, -1., -1.5, -2.}) {
     Pile pile(gap);
@@ -38,7 +38,7 @@ TEST(Overlaps, TellTheDepthAndTheDeepest) {
     EXPECT_EQ(found[1].masters, "plate");
     EXPECT_EQ(found[1].count, 16U) << gap;
     EXPECT_EQ(found[1].deepest, low) << gap;
-    // Metaballs over a flat wall: a few hundredths; further in the mean of the layers about a place.
+    // Tolerance: a few hundredths of a spacing for metaballs over a flat wall, half a spacing for the estimate below.
     EXPECT_NEAR(found[1].depth, (1.1 - gap) * 1e-3, (gap > 0.3 ? 0.05 : 0.5) * 1e-3) << gap;
     EXPECT_GE(found[0].count, 4U) << gap;
   }
@@ -83,7 +83,7 @@ TEST(Overlaps, LeaveOutWhatIsExcluded) {
   EXPECT_TRUE(overlaps(pile, {.excluded = [](Index, Index) { return true; }}).empty());
 }
 
-/// A body beside a wall, lower than its surface, is not in it.
+/// A body beside a wall, lower than the wall's surface, is not inside it.
 TEST(Overlaps, ABodyBesideAWallIsOutside) {
   for (const double aside : {1.2, 2., 3.})
     for (const double gap : {0., -1., -2.}) {

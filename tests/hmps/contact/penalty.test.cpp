@@ -80,7 +80,7 @@ template <class Law>
 double relative_velocity_after_stick(bool both_roles, bool prescribed) {
   const Point v(1, 0, 0);  // of the wall relative to the first particle
   const double passes = both_roles ? 2 : 1;
-  // N: once as slave for each pass that has it as slave, once as master of weight 1.
+  // N: 1 for each pass that has the particle as a slave, and 1 for each that has it as a master of weight 1.
   const double first = both_roles ? 2 : 1, second = prescribed ? 0 : both_roles ? 2 : 1;
   const Point force = hmps::friction_force<double, 3>(v, Law::share(first + second), 1e9);
   // Each pass pushes the first by the force and the second by its reaction.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contact with a penalty law of one's own.
+// Contact with a user-defined penalty law.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ using Point = hmps::Vector<double, 2>;
 
 constexpr double l0 = 1e-3, density = 1000;
 
-/// Any law, as functions of s = p / l0: the force over k l0, and its largest slope over k. One type, to compile once.
+/// Any law, as functions of s = p / l0: the force over k l0, and its largest slope over k. A single type, compiled
+/// once.
 struct Law {
   std::function<double(double)> shape, slope;
   [[nodiscard]] double force(double k, double p, double spacing) const { return k * spacing * shape(p / spacing); }
@@ -41,7 +42,7 @@ TEST(PenaltyLaw, GivesTheForceOnEachSlave) {
   constexpr double dt = 1e-5;
   bodies::Pile<double, 2> pile(0.8);
   pile.shake(0.05, 0.03, 2);
-  for (const double ratio : {0.3, 0.1}) {  // of all pairs, of the pair
+  for (const double ratio : {0.3, 0.1}) {  // set for all pairs, set for this pair
     Contact contact({.spacing = l0, .density = density}, hertz);
     pile.declare(contact, ratio == 0.3 ? hmps::PairSettings{}
                                        : hmps::PairSettings{.stiffness = hmps::PenaltyStiffness::ratio(ratio)});
@@ -60,7 +61,7 @@ TEST(PenaltyLaw, GivesTheForceOnEachSlave) {
 struct Stone : bodies::Scene<double, 2> {
   Box wall;
   Index stone;
-  /// `depth` (in spacings) below the place where it touches a wall that keeps the spacing.
+  /// The stone lies `depth` (in spacings) below the place one spacing above the wall, where it just touches.
   explicit Stone(double depth = 0) : wall(add({9, 4}, Point::Zero(), l0)) {
     stone = add({1, 1}, Point(4, 4 - depth) * l0, l0).all[0];
   }
@@ -78,10 +79,10 @@ struct Stone : bodies::Scene<double, 2> {
   }
 };
 
-/// What the wall takes it gives back, and what it holds at the deepest place is the integral of the force. The energy
-/// that symplectic Euler conserves differs from the true one only while there is a force, so that the speed after n
-/// steps in contact is wrong by O(1 / n^2). The distance of (29) is a mean over the places along the wall; above a
-/// particle it is off by a few thousandths of the motion.
+/// The wall gives back the energy that it takes, and the energy that it holds at the deepest place is the integral of
+/// the force. The energy that symplectic Euler conserves differs from the true one only while there is a force, so that
+/// the speed after n steps in contact is wrong by O(1 / n^2). The distance of (29) is a mean over the places along the
+/// wall; above a particle it errs by a few thousandths of the motion.
 TEST(PenaltyLaw, GivesBackTheEnergyOfAThrownParticle) {
   constexpr double k = 1e11, speed = 2, dt = 2.5e-6;
   Stone scene(-0.02);
@@ -116,14 +117,14 @@ TEST(PenaltyLaw, RefusesADepthAtWhichItIsTooStiff) {
   EXPECT_NE(text.find("particle " + std::to_string(scene.stone) + " of 'stone'"), std::string::npos) << text;
   EXPECT_NE(text.find("wall of 'wall'"), std::string::npos) << text;
   EXPECT_NE(text.find("k~ = 1.001"), std::string::npos) << text;
-  EXPECT_EQ(scene.magnitude(), 0) << "nothing is added before";
+  EXPECT_EQ(scene.magnitude(), 0) << "no force is added before the error";
   EXPECT_NO_THROW(scene.apply(bad, 0.99 * dt)) << "a shorter step is the remedy";
-  // The linear law in the same words.
+  // The linear law written as a user-defined one.
   auto stiff = scene.contact(fixed(1.001 * density / (dt * dt)), linear);
   EXPECT_THROW(scene.apply(stiff, dt), hmps::StateError);
 }
 
-/// The stiffness that counts for a light particle is that of the law where it is.
+/// For a light particle, the stiffness of the law at its penetration counts.
 TEST(PenaltyLaw, RefusesWhatIsTooLightForItsStiffness) {
   constexpr double dt = 1e-5, k = 0.3 * density / (dt * dt);
   Stone scene(0.2);
@@ -142,7 +143,7 @@ TEST(PenaltyLaw, RefusesWhatIsTooLightForItsStiffness) {
   EXPECT_EQ(kick(0.5 * least), "");
 }
 
-/// `stable_step` sees the slope of the law at the place: that of a linear law as stiff there.
+/// `stable_step` sees the slope of the law at the penetration: the step is that of a linear law with this stiffness.
 TEST(PenaltyLaw, HasTheStableStepOfItsSlope) {
   constexpr double k = 1e11;
   Stone scene(0.2);
@@ -158,7 +159,7 @@ TEST(PenaltyLaw, HasTheStableStepOfItsSlope) {
         .limit;
   };
   const double own = limit(k, hertz), same = limit(slope, linear);
-  EXPECT_NEAR(own, same, 1e-5 * same) << "the quotient is off by the square of the residual";
+  EXPECT_NEAR(own, same, 1e-5 * same) << "the quotient errs by the square of the residual";
   EXPECT_NEAR(own, 2 * std::sqrt(density / slope), 0.01 * own) << "2 / omega of one mode";
   EXPECT_GT(std::abs(own - limit(k, linear)), 0.1 * same) << "and not that of k";
 }

@@ -17,7 +17,7 @@ TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
     for (int c = 0; c < 9; ++c) F(c % 3, c / 3) = (c % 4 == 0) + 0.5 * u(random);
     const hmps::Vector<double, 3> n = hmps::Vector<double, 3>(u(random), u(random), u(random)).normalized();
     double furthest = 0;
-    // The ellipsoid is the image F q of the sphere |q| = l0 / 2, of which -n . F q is how far a point reaches.
+    // The ellipsoid is the image F q of the sphere |q| = l0 / 2; a point reaches as far as -n . F q.
     const hmps::Vector<double, 3> reach = -0.5e-3 * (F.transpose() * n);
     for (int a = 0; a < 400; ++a)
       for (int b = 0; b < 800; ++b) {
@@ -25,7 +25,7 @@ TEST(Penetration, SupportIsThePointOfTheEllipsoidThatReachesFurthest) {
         furthest = std::max(furthest, std::sin(theta) * (std::cos(phi) * reach[0] + std::sin(phi) * reach[1]) +
                                           std::cos(theta) * reach[2]);
       }
-    // The grid's nearest point is 0.005 rad off at most: 1 - cos of it.
+    // The grid's nearest point is at most 0.005 rad away; the error is 1 - cos of that.
     const double support = hmps::slave_support<double, 3>(F, n, 0.5e-3);
     EXPECT_LE(furthest, support * (1 + 1e-12));
     EXPECT_GE(furthest, support * (1 - 4e-4));

@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-/// Contact evaluated literally: each slave against every master, equation after equation, with Eigen and
-/// nothing of hmps. What the fast evaluation is compared with.
+/// Contact evaluated literally: each slave against every master, equation by equation, with Eigen and without hmps. The
+/// tests compare the fast evaluation with it.
 namespace plain {
 
 using Vec = Eigen::Vector3d;

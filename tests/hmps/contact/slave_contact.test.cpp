@@ -72,7 +72,7 @@ struct Scene {
   }
 };
 
-/// The equations taken literally, one after the other.
+/// Compares with the equations taken literally, one after the other.
 template <class Ball>
 void compare_with_plain(int power) {
   for (const double height : {0.95, 0.85, 0.7}) {
@@ -90,7 +90,7 @@ void compare_with_plain(int power) {
     literal.friction = 1e9;
     const auto dragged = literal(x, v, F);
     ASSERT_EQ(pushed.contacts, 1U);
-    // Z^-1 is right to 1e-6 l0, times a stretch of 1.2.
+    // Z^-1 is accurate to 1e-6 l0; the error is multiplied by a stretch of 1.2.
     const Vector pn = found.contact.penetration * found.normal;
     EXPECT_LE((pushed.f.back() - pn).norm(), 2e-6 * l0) << height;
     const Vector& slip = found.contact.slip;
@@ -115,7 +115,7 @@ TEST(SlaveContact, NothingTouchesFurtherThanASpacing) {
   }
 }
 
-/// A bound of the compression that holds changes nothing: it only spares the second pass.
+/// A valid bound of the compression changes no result: it only saves the second pass.
 TEST(SlaveContact, ABoundThatHoldsChangesNothing) {
   for (const double height : {1.3, 1., 0.9}) {
     const Scene scene(height);
@@ -127,14 +127,14 @@ TEST(SlaveContact, ABoundThatHoldsChangesNothing) {
 
 TEST(SlaveContact, SaysWhereTheWallDoesNotTellWhichWayIsOut) {
   EXPECT_FALSE(Scene(0.5, 1, 0).operator()<hmps::SmoothMetaball>().contact.lost);
-  // The middle of two layers has no normal: depth as of an undeformed wall.
+  // In the middle of two layers there is no normal: the depth is that in an undeformed wall.
   Scene middle(-0.5, 1, 0);
   middle.x.back().head<2>().setZero();
   const auto found = middle.operator()<hmps::PaperMetaball>();
   EXPECT_TRUE(found.contact.lost);
   EXPECT_EQ(found.contact.penetration, 0);
   EXPECT_GT(found.contact.depth, l0);
-  // A little off it there is one, to either side, but the sum hardly falls.
+  // A little to either side of it there is one, but the sum hardly falls.
   middle.x.back()[2] += 0.1 * l0;
   const auto beside = middle.operator()<hmps::PaperMetaball>();
   EXPECT_TRUE(beside.contact.lost);

@@ -32,10 +32,10 @@ TEST(SpringFriction, SlidesBeyondTheLimit) {
   EXPECT_NEAR(1e9 * found.elastic.norm(), 1e4, 1e-8);
   EXPECT_NEAR(found.elastic.cross(slip).norm(), 0, 1e-22);
   EXPECT_NEAR(found.force.norm(), 1e4, 1e-8);
-  // A second time nothing is left to be cut, but for rounding.
+  // The second time there is nothing left to cut, except for rounding.
   const auto again = hmps::spring_friction<double, 3>(found.elastic, Point::Zero(), 1e9, 1e5, 1e4);
   EXPECT_NEAR((again.elastic - found.elastic).norm(), 0, 1e-20);
-  // Turned back, it yields at once: the limit is where the force was, not where the slip ended.
+  // When the slip reverses, the spring yields at once: it starts back from the limit, not from where the slip ended.
   const Point back = found.elastic - Point(3e-7, 4e-7, 0);
   EXPECT_TRUE((hmps::spring_friction<double, 3>(back, Point::Zero(), 1e9, 1e5, 1e4)).sticks);
 }
@@ -49,8 +49,8 @@ TEST(SpringFriction, SharesTheLimitWithTheDamper) {
   EXPECT_NEAR((1e9 * found.elastic + 1e5 * velocity - found.force).norm(), 0, 1e-8);
 }
 
-/// A damper that takes all of the limit leaves nothing, and never turns the spring against the slip; one that slides
-/// back does not stretch it.
+/// A damper that takes all of the limit leaves nothing for the spring and never turns it against the slip; a damper
+/// that slides back does not stretch the spring.
 TEST(SpringFriction, DoesNotReverseOrStretchTheSpring) {
   const Point slip(1e-6, 0, 0);
   const auto fast = hmps::spring_friction<double, 3>(slip, Point(1, 0, 0), 1e9, 1e5, 1e4);
@@ -61,9 +61,9 @@ TEST(SpringFriction, DoesNotReverseOrStretchTheSpring) {
   EXPECT_EQ(back.elastic, slip);
 }
 
-/// A slip that slows down by `a` comes to rest below the limit L, not at it, where its force would follow the normal
-/// force. With tau = c / k, it sticks when v = a tau, with the spring at L - c a tau; until it rests, it slips another
-/// a tau^2 / 2. That is to first order in dt / tau, which is 1/200.
+/// A slip that decelerates by `a` comes to rest below the limit L, not at it, where its force would follow the normal
+/// force. With tau = c / k, it sticks when v = a tau, with the spring at L - c a tau; until it rests, it slips by
+/// another a tau^2 / 2. This holds to first order in dt / tau, which is 1/200.
 TEST(SpringFriction, ComesToRestBelowTheLimit) {
   constexpr double k = 1e9, c = 1e5, tau = c / k, dt = tau / 200, a = 1, limit = 4 * k * a * tau * tau;
   Point elastic = Point::Zero();
@@ -82,8 +82,8 @@ TEST(SpringFriction, HoldsNothingWithoutALoad) {
   EXPECT_EQ(none.force, Point::Zero());
 }
 
-/// A closed path of slip gives back no more than was put in: the work on the slave, force times slip of the wall
-/// against it, is not negative.
+/// A closed path of slip gives back no more energy than was put in: the work on the slave, force times slip of the wall
+/// relative to it, is not negative.
 TEST(SpringFriction, TakesEnergyOnAClosedPath) {
   constexpr double dt = 1e-6;
   for (const double damping : {0., 1e5}) {

@@ -19,7 +19,7 @@ constexpr double dt = 1e-5, nan = std::numeric_limits<double>::quiet_NaN(),
                  inf = std::numeric_limits<double>::infinity();
 const hmps::ContactSettings settings{.spacing = 1e-3, .density = 1000, .friction = 0.3};
 
-/// The message of the `E` that the second call of a contact throws, if `spoil(pile)` has been called before it.
+/// The message of the `E` that the second call of a contact throws after `spoil(pile)` has been called.
 template <class E, class Spoil>
 std::string said(double gap, Spoil&& spoil) {
   Pile pile(gap);
@@ -73,7 +73,7 @@ TEST(StateChecks, AskForRecordWhereGradientsAreZero) {
   const Pile pile(0.9);
   const Index i = near_the_other(pile, true);
   expect_named(said<hmps::InputError>(0.9, [&](Pile& spoilt) { spoilt.F[i].setZero(); }), i, "record(F)");
-  // Nothing was ever recorded: seen at the first call, also by bodies that are far apart.
+  // If nothing was ever recorded, the first call detects it, even if the bodies are far apart.
   for (const double gap : {0.9, 20.}) {
     Pile forgotten(gap);
     for (auto& F : forgotten.F) F.setZero();

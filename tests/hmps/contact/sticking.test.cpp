@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Friction with a spring in the whole contact: what it remembers, and how that turns.
+// Friction with a spring in the complete contact: what it remembers, and how the remembered slip rotates.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -34,7 +34,7 @@ struct Shoved {
       pile.apply(contact, dt);
     }
   }
-  /// Force density on the block, summed.
+  /// The sum of the force densities on the block.
   [[nodiscard]] Point pushed() const {
     Point sum = Point::Zero();
     for (const Index i : pile.block.all) sum += pile.f[i];
@@ -42,8 +42,8 @@ struct Shoved {
   }
 };
 
-/// Nothing moves, but friction holds: a spring of stiffness k in each contact, which a law of the velocity is not. At
-/// the rim normals are inclined, by up to 0.3, whose square is the share that is left out.
+/// Nothing moves, but friction holds: each contact is a spring of stiffness k, unlike with a law that depends only on
+/// the velocity. At the rim, normals are inclined by up to 0.3, whose square is the share that is left out.
 TEST(Sticking, HoldsWithoutASlip) {
   Shoved scene;
   const std::size_t contacts = scene.pile.apply(scene.contact, dt).contacts;
@@ -52,13 +52,14 @@ TEST(Sticking, HoldsWithoutASlip) {
   EXPECT_NEAR(-force[0], whole, 0.1 * whole);
   const auto once = scene.pile.f;
   scene.pile.apply(scene.contact, dt);
-  EXPECT_EQ(once, scene.pile.f) << "to evaluate the same state twice changes nothing";
+  EXPECT_EQ(once, scene.pile.f) << "evaluating the same state twice changes nothing";
 }
 
-/// Both bodies turn as one, as fast as they say they do: the force turns with them. A mean of the masters' motion would
-/// see them slide, since its place is more than half a spacing below the slave: by 0.5 spacings here, 500 times the
-/// elastic slip. Left are the third order of the turn of the spring, 1e-9 / 6 of it in each of 400 steps, and the
-/// second in the velocities, which are those at the end of a step: 2e-4 of the spring's force.
+/// Both bodies turn as one, with the velocities of that rotation: the force turns with them. The mean of the masters'
+/// motion would report sliding, because it belongs to a place more than half a spacing below the slave: by 0.5 spacings
+/// here, 500 times the elastic slip. The remaining errors are of third order in the rotation of the spring, 1e-9 / 6 of
+/// it in each of 400 steps, and of second order in the velocities, which are those at the end of a step: 2e-4 of the
+/// spring's force.
 TEST(Sticking, TurnsWithTheWall) {
   Shoved scene;
   const auto before = scene.pile.f;
@@ -85,8 +86,8 @@ TEST(Sticking, TurnsWithTheWall) {
   EXPECT_GT(largest, friction);
 }
 
-/// A thread of masters tells no rotation about itself. What slave and wall share of their motion must not leak into the
-/// elastic slip, however far they travel.
+/// A thread of masters does not determine a rotation about itself. The motion that slave and wall share must not leak
+/// into the elastic slip, however far they travel.
 TEST(Sticking, TravelsWithAThread) {
   std::vector<Point> x, v, f;
   std::vector<Index> thread;
@@ -117,12 +118,12 @@ TEST(Sticking, TravelsWithAThread) {
   EXPECT_LT((pushed() - before).norm(), 1e-6 * before.norm());
 }
 
-/// Off the wall for one call, or refreshed: no elastic slip is left.
+/// After one call off the wall, or after `refresh`, no elastic slip is left.
 TEST(Sticking, ForgetsWhereContactIsLost) {
   Shoved scene;
   scene.contact.refresh();
   scene.pile.apply(scene.contact, dt);
-  // What is left is the change of the normals over a thousandth of a spacing.
+  // The remaining difference is the change of the normals over a thousandth of a spacing.
   EXPECT_LT((scene.pushed() - scene.before).norm(), 1e-2 * scene.before.norm());
   Shoved lifted;
   for (const double up : {0.5 * l0, -0.5 * l0}) {
@@ -132,8 +133,8 @@ TEST(Sticking, ForgetsWhereContactIsLost) {
   EXPECT_LT((lifted.pushed() - scene.pushed()).norm(), 1e-9 * scene.before.norm());
 }
 
-/// Shoved further than the elastic slip of the limit: mu times the normal force, in both roles, but for what inclined
-/// normals push aside.
+/// Shoved further than the elastic slip at the limit, the block feels mu times the normal force, in both roles, except
+/// for what inclined normals push aside.
 TEST(Sticking, SlidesAtTheLimit) {
   Shoved scene(0.5 * l0);
   const Point stuck = scene.pushed();
@@ -168,11 +169,11 @@ TEST(Sticking, ResumesToTheSameBits) {
     pile.apply(resumed, dt);
     ASSERT_EQ(forces, pile.f) << "step " << n;
     pile.apply(fresh, dt);
-    EXPECT_NE(forces, pile.f) << "without the history it is another force";
+    EXPECT_NE(forces, pile.f) << "without the history the force is different";
   }
 }
 
-/// As `stable_step` does: the force at displaced positions, in the middle of a run.
+/// Probes the force at displaced positions in the middle of a run, as `stable_step` does.
 TEST(Sticking, ForgetsAProbe) {
   Shoved scene;
   scene.pile.apply(scene.contact, dt);

@@ -59,7 +59,7 @@ TYPED_TEST(SurfaceCorrectionTest, LiesHalfASpacingBelowTheSurfaceAndTheRestStays
   raised(hmps::vectors(body.x), hmps::matrices(F), hmps::vectors(places));
   std::vector<bool> in_skin(body.x.size(), false);
   for (const Index i : body.skin) in_skin[i] = true;
-  // The gradient of the shape is a central difference over 2e-3 spacings: rounding of the distance over that.
+  // The gradient of the shape is a central difference over 2e-3 spacings: the rounding of distances over that.
   const S tolerance = S(0.5) * body.l0 * std::numeric_limits<S>::epsilon() * S(1e4);
   double furthest = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -69,10 +69,10 @@ TYPED_TEST(SurfaceCorrectionTest, LiesHalfASpacingBelowTheSurfaceAndTheRestStays
       EXPECT_EQ(places[i], body.x[i]);
     furthest = std::max(furthest, static_cast<double>((places[i] - body.x[i]).norm() / body.l0));
   }
-  EXPECT_GT(furthest, 0.3) << "the ball is no staircase, so that this shows nothing";
+  EXPECT_GT(furthest, 0.3) << "the ball is no staircase, so this test proves nothing";
 }
 
-/// Turned and stretched, the raised places turn and stretch along: they are material points.
+/// If the body is turned and stretched, the raised places turn and stretch with it: they are material points.
 TYPED_TEST(SurfaceCorrectionTest, FollowsTheBody) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;
@@ -98,7 +98,7 @@ TEST(SurfaceCorrection, WritesNowhereElseThanInTheViews) {
   std::vector<hmps::Matrix<double, 3>> F(body.x.size(), hmps::Matrix<double, 3>::Identity());
   auto places = body.x;
   const auto x = hmps::vectors(body.x);
-  const std::size_t few = body.skin.back();  // all but the last of the skin, and what follows it
+  const std::size_t few = body.skin.back();  // all particles before the last one of the skin
   EXPECT_THROW(raised(x.part(0, few), hmps::matrices(F).part(0, few), hmps::vectors(places).part(0, few)),
                hmps::InputError);
   EXPECT_EQ(places, body.x) << "something was written before the error";

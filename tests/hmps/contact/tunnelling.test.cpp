@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A particle is thrown at a held wall, ever faster until it goes through: it must not do so unreported.
+// A particle is thrown at a held wall, faster and faster until it goes through, which must be reported.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,14 +15,14 @@ using hmps::Index;
 
 constexpr double l0 = 1.2e-3, dt = 2e-5;
 
-/// What became of the particle: where it ended, how deep it was in the wall, and whether that was said.
+/// What became of the particle: whether it passed, how deep it was in the wall, and whether that was reported.
 struct Throw {
   bool passed = false, reported = false;
-  double depth = 0;  // the largest p in spacings before anything was said
+  double depth = 0;  // the largest p in spacings before anything was reported
   std::string message = {};
 };
 
-/// Against a wall of `layers`, off its lattice, at `pace` spacings per step, with friction to hold on to.
+/// Throws it at a wall of `layers`, off the wall's lattice, at `pace` spacings per step.
 template <class Ball>
 Throw at_wall(int layers, double ratio, double pace, double phase) {
   bodies::Scene<double, 3> scene;
@@ -60,7 +60,7 @@ class Tunnelling : public ::testing::Test {};
 using Balls = ::testing::Types<hmps::SmoothMetaball, hmps::PaperMetaball>;
 TYPED_TEST_SUITE(Tunnelling, Balls);
 
-/// Up to the speed at which sound crosses a spacing per step; that of the limit of stability is 0.9 of it.
+/// Up to the speed of sound: at the limit of stability, sound crosses 0.9 spacings per step.
 TYPED_TEST(Tunnelling, IsAlwaysReported) {
   std::size_t passed = 0;
   for (const int layers : {1, 2, 3})
@@ -73,11 +73,11 @@ TYPED_TEST(Tunnelling, IsAlwaysReported) {
               << layers << " layers, k~ = " << ratio << ", " << pace << " spacings per step, phase " << phase << ", p "
               << result.depth;
         }
-  EXPECT_GT(passed, 100U) << "nothing goes through, so that this shows nothing";
+  EXPECT_GT(passed, 100U) << "nothing goes through, so this test proves nothing";
 }
 
-/// A wall of two layers holds what comes 0.8 spacings deep, as the deepest slaves of the swallow do, one of a single
-/// layer, in which half a spacing is the middle, 0.3.
+/// A wall of two layers holds a slave that comes 0.8 spacings deep, as the deepest slaves of the swallow do; a wall of
+/// a single layer, whose middle is half a spacing deep, holds one at 0.3.
 TYPED_TEST(Tunnelling, IsNotReportedOfWhatTheWallThrowsBack) {
   for (const int layers : {1, 2, 3})
     for (const double ratio : {0.3, 0.05}) {

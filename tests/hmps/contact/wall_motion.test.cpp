@@ -40,7 +40,7 @@ void recovers_a_rigid_motion() {
   std::uniform_real_distribution<double> u(0, 1);
   const S spacing = S(2e-3), angle = S(0.02);
   const hmps::Matrix<S, D> R = turn<S, D>(angle);
-  // From `from` to R from + shift, in spacings from a fixed point; the slave moves with the wall.
+  // A point moves from `from` to R from + shift, in spacings from a fixed point; the slave moves with the wall.
   const hmps::Vector<S, D> slave = hmps::Vector<S, D>::Constant(S(3)), shift = hmps::Vector<S, D>::Constant(S(0.1));
   const auto moved = [&](const hmps::Vector<S, D>& from) { return (R * from - from + shift).eval(); };
   hmps::detail::WallMotion<S, D> wall(spacing);
@@ -52,7 +52,7 @@ void recovers_a_rigid_motion() {
   wall.finish();
   const S rounding = 100 * std::numeric_limits<S>::epsilon();  // of lengths of up to 5 spacings
   EXPECT_LT((wall.moved() - spacing * moved(slave)).norm(), rounding * spacing);
-  EXPECT_GT(wall.by_turning().norm(), S(0.5) * angle * spacing) << "so that the bound above says something";
+  EXPECT_GT(wall.by_turning().norm(), S(0.5) * angle * spacing) << "otherwise the bound above proves nothing";
   const hmps::Vector<S, D> vector = hmps::Vector<S, D>::Unit(0);
   EXPECT_LT((wall.turned(vector) - R * vector).norm(), S(0.3) * angle * angle * angle + rounding);
   EXPECT_NEAR(wall.turned(vector).norm(), 1, 4 * std::numeric_limits<S>::epsilon());
@@ -64,7 +64,7 @@ TEST(WallMotion, RecoversARigidMotion) {
   recovers_a_rigid_motion<double, 2>();
 }
 
-/// One master tells no rotation, two tell none about their line.
+/// One master determines no rotation, two determine none about the line between them.
 TEST(WallMotion, OfFewMastersIsTheirMean) {
   using Point = hmps::Vector<double, 3>;
   hmps::detail::WallMotion<double, 3> one(1), line(1);
@@ -91,7 +91,7 @@ TEST(ParticleMotion, IsThatSinceTheCallBefore) {
   std::vector<Point> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
   const std::vector<Index> particle{0, 2, 3};
   hmps::detail::ParticleMotion<float, 3> motion;
-  motion.choose(particle, std::vector<Awake>{{2}, {3}, {0}});  // the last one is none
+  motion.choose(particle, std::vector<Awake>{{2}, {3}, {0}});  // the last one is not a particle
   motion.update(hmps::vectors(x), particle, hmps::Serial{});
   EXPECT_EQ(motion.moved(0)[0], 0) << "there was no call before";
   EXPECT_EQ(motion.between(0, 1), (hmps::Vector<float, 3>(1, 0, 0)));

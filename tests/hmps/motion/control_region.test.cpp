@@ -70,12 +70,12 @@ TYPED_TEST(ControlRegionTest, DriftLandsOnTheMotionAfterThousandsOfSteps) {
       x.add(i, Vector<S, D>(v[i] * h));
     }
   }
-  // Rounding of one step only: of a position of at most 0.05 m.
+  // Rounding of only one step, of a position of at most 0.05 m.
   const double bound = 4 * 0.05 * static_cast<double>(std::numeric_limits<S>::epsilon());
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_LE((x[region.particles()[k]].template cast<double>() - region.position(k, 1.0)).norm(), bound);
   EXPECT_GT((region.position(0, 1.0) - this->at_rest[1].template cast<double>()).norm(), 0.005);
-  // The first and the last step are slow, nothing is kicked: below the speeds in between.
+  // The first and the last step are slow and nothing is kicked: below the speeds in between.
   EXPECT_LT(fastest, 1);
   for (const std::size_t i : {0u, 2u, 3u, 4u, 7u}) EXPECT_EQ(this->positions[i], this->at_rest[i]);
 }
@@ -103,8 +103,8 @@ TYPED_TEST(ControlRegionTest, StartsWithoutAJumpOfVelocity) {
   const ControlRegion region({1, 5}, hmps::vectors(this->at_rest), this->motion());
   const double dt = 1e-5;
   region.prescribe(hmps::vectors(this->positions), hmps::vectors(this->velocities), dt, dt);
-  // Positions rise as the square of time: velocity below the largest acceleration, some 1 m/s2, times dt,
-  // beside the rounding of positions over dt.
+  // Positions rise as the square of time: the velocity is below the largest acceleration, about 1 m/s2, times dt, plus
+  // the rounding of positions over dt.
   const double rounding = 0.05 * std::numeric_limits<typename TestFixture::Scalar>::epsilon() / dt;
   EXPECT_LE(static_cast<double>(this->velocities[1].norm()), 1e-5 + rounding);
 }
@@ -158,7 +158,7 @@ TYPED_TEST(ControlRegionTest, NamesWhatIsWrong) {
   this->positions[3][0] = std::numeric_limits<S>::quiet_NaN();
   try {
     region.prescribe(x, v, 0.1, 0.1);
-    ADD_FAILURE() << "a position that is not a number was accepted";
+    ADD_FAILURE() << "a position that is NaN was accepted";
   } catch (const hmps::StateError& error) {
     EXPECT_NE(std::string(error.what()).find("particle 3"), std::string::npos) << error.what();
   }
@@ -181,14 +181,14 @@ TEST(ControlRegionMisuse, IsRefused) {
   EXPECT_THROW(region.prescribe(hmps::vectors(x), hmps::vectors(v), -1, 1e-3, -5.0), hmps::InputError);
   EXPECT_EQ(x, X);
   EXPECT_THROW((ControlRegion<double, 3>({1}, reference, nullptr)), hmps::InputError);
-  // Made of the positions that it moves, it would go further with each step.
+  // A region whose reference positions are the positions that it moves would go further with each step.
   const auto shift = [](double t) { return hmps::Pose<double, 3>{.translation = V(t, 0, 0)}; };
   const ControlRegion<double, 3> moving({1}, hmps::vectors(std::as_const(x)), shift);
   EXPECT_THROW(moving.prescribe(hmps::vectors(x), hmps::vectors(v), 1, 1e-3), hmps::InputError);
   EXPECT_THROW(moving.place(hmps::vectors(x), hmps::vectors(v), 1), hmps::InputError);
 }
 
-/// A Pose is rigid by its meaning. What is not may be a lambda.
+/// A `Pose` is rigid by definition. A motion that is not rigid may be a lambda.
 TEST(ControlRegion, RefusesAPoseThatIsNoRotation) {
   using V = Vector<double, 3>;
   std::vector<V> X(3, V(1, 2, 3)), x = X, v(3, V::Zero());

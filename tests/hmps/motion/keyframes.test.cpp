@@ -52,7 +52,7 @@ TEST(Keyframes, NeverOvershootsAndHoldsPlateaus) {
 TEST(Keyframes, RateIsTheDerivativeAndContinuous) {
   const double h = 1e-6;
   for (double t = 0.403; t < 2.2; t += 0.0107) {
-    // Exact for a cubic up to its third derivative, below 1e6, times h^2 / 6, and rounding.
+    // For a cubic, the error is its third derivative, below 1e6, times h^2 / 6, plus rounding.
     EXPECT_NEAR(steps.rate(t), (steps.value(t + h) - steps.value(t - h)) / (2 * h), 1e-5) << t;
   }
   for (const auto& key : steps.keys()) {

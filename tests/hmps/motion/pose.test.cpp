@@ -81,7 +81,7 @@ TEST(Rotation, TurnsTheRightWay) {
 
 TEST(Rotation, SeriesAndClosedFormMeet) {
   using V = Vector<double, 3>;
-  // Two angles on both sides of the switch: the rotations must differ by no more than the angles.
+  // Two angles on either side of the switch: the rotations must differ by no more than the angles.
   const V axis = V(1, 2, -2) / 3.0;
   const double h = 1e-12;
   const auto below = hmps::rotation<double>(V((0.1 - h) * axis));
@@ -105,7 +105,7 @@ TEST(Velocity, IsTheRateOfThePosition) {
     };
     const hmps::PoseRate<double, 3> speed{hmps::angular_velocity<double>(vector(0.2), rate), V(1, 0.4, 0)};
     const V x(0.3, -0.4, 1.5);
-    // Central difference: error of the order of h^2 and of 1e-16 / h.
+    // The central difference has errors of the order of h^2 and of 1e-16 / h.
     const double h = 1e-5;
     const V expected = (pose(0.2 + h)(x) - pose(0.2 - h)(x)) / (2 * h);
     EXPECT_LE((velocity(pose(0.2), speed, x) - expected).norm(), 1e-8);

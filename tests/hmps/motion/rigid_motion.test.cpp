@@ -43,7 +43,7 @@ TEST(RigidMotion, RateIsThatOfItsPoints) {
   const double h = 1e-5;
   for (double t = 0.05; t < 1; t += 0.1) {
     const V x(1, -2, 0.5);
-    // Error of the order of h^2 times the third derivative, some 1e2.
+    // The error is of the order of h^2 times the third derivative, about 1e2.
     EXPECT_LE((velocity(motion(t), motion.rate(t), x) - (motion(t + h)(x) - motion(t - h)(x)) / (2 * h)).norm(), 1e-7);
     const V2 y(1, -2);
     EXPECT_LE((velocity(plane(t), plane.rate(t), y) - (plane(t + h)(y) - plane(t - h)(y)) / (2 * h)).norm(), 1e-7);

@@ -64,7 +64,7 @@ TYPED_TEST(FixedRadius, FindsWhatBruteForceFinds) {
       }
     }
   }
-  EXPECT_GT(total, 10 * points.size()) << "the test looks at too few neighbours";
+  EXPECT_GT(total, 10 * points.size()) << "the test checks too few neighbours";
 
   const hmps::FixedRadiusSearch search(hmps::vectors(points));
   for (std::size_t i = 0; i < points.size(); i += 7) {
@@ -76,7 +76,7 @@ TYPED_TEST(FixedRadius, FindsWhatBruteForceFinds) {
   }
 }
 
-// Distances of whole numbers are exact in both scalars: 3-4-5 and the radius itself are in the ball.
+// Distances between integer points are exact in both scalars: 3-4-5 and the radius itself are in the ball.
 TYPED_TEST(FixedRadius, IsAClosedBall) {
   using T = std::tuple_element_t<0, TypeParam>;
   constexpr int D = std::tuple_element_t<1, TypeParam>::value;
@@ -100,8 +100,8 @@ TYPED_TEST(FixedRadius, IsAClosedBall) {
     }
 }
 
-// Lattices whose spacing is no binary fraction: the search must decide on the distance as it is
-// rounded, not on a bound of the tree that is rounded in another way.
+// Lattices whose spacing is not a binary fraction: the search must decide by the rounded distance, not by a bound of
+// the tree that is rounded in another way.
 TYPED_TEST(FixedRadius, LosesNothingToTheRoundingOfTheTree) {
   using T = std::tuple_element_t<0, TypeParam>;
   constexpr int D = std::tuple_element_t<1, TypeParam>::value;

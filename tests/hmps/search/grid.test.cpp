@@ -87,7 +87,7 @@ TYPED_TEST(GridTest, RefusesBadCellsAndPoints) {
   EXPECT_THROW(this->build(S(1)), hmps::InputError);
 }
 
-// A cell list of points that are far apart must not go on for ever, nor ask for memory without bound.
+// Building a cell list of points that are far apart must neither run forever nor need unbounded memory.
 TYPED_TEST(GridTest, EndsForPointsThatAreFarApart) {
   using S = typename TypeParam::S;
   const S most = std::numeric_limits<S>::max();

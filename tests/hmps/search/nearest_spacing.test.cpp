@@ -34,7 +34,7 @@ TEST(NearestSpacing, IsNamedWhereAnotherWasGiven) {
   EXPECT_EQ(hmps::detail::spacing_hint(hmps::vectors(points), 1.0), "");
   const std::string hint = hmps::detail::spacing_hint(hmps::vectors(points), 1000.0);
   EXPECT_NE(hint.find("is the spacing 1 m?"), std::string::npos) << hint;
-  // Neighbours of a fitted cloud are a few per cent further apart than its spacing says.
+  // Neighbours in a fitted cloud are a few per cent further apart than its spacing.
   EXPECT_NE(hmps::detail::spacing_hint(hmps::vectors(points), 0.98), "");
   EXPECT_EQ(hmps::detail::spacing_hint(hmps::vectors(points), 0.98, 0.15), "");
 }

@@ -74,8 +74,8 @@ TYPED_TEST(SymplecticEulerOf, EveryExecutorGivesTheSameBits) {
   EXPECT_EQ(carry, carry2);
 }
 
-/// Position and velocity after one period and a quarter of x'' = -x, from (1, 0), and the largest
-/// deviation of the energy on the way, in `steps` steps.
+/// Solves x'' = -x from (1, 0) in `steps` steps. Returns position and velocity after `periods` periods and the largest
+/// deviation of the energy on the way.
 std::array<double, 3> oscillate(int steps, double periods = 1.25) {
   std::vector<Vector<double, 2>> x(1, Vector<double, 2>(1, 0)), v(1, Vector<double, 2>::Zero()), f(1);
   const double dt = periods * 2 * std::numbers::pi / steps;
@@ -116,8 +116,8 @@ TEST(SymplecticEuler, StaysBoundedUpToTwoOverOmegaOnly) {
 }
 
 TEST(SymplecticEuler, CompensatedDriftInFloatKeepsPaceWithDouble) {
-  // A particle 0.1 m from the origin that moves at up to 0.02 m/s: an increment at dt = 1e-5 s is
-  // 27 units in the last place of x, so the plain drift loses some per cent of each.
+  // A particle 0.1 m from the origin moves at up to 0.02 m/s: its increment at dt = 1e-5 s is 27 units in the last
+  // place of x, so the plain drift loses a few per cent of each.
   const double dt = 1e-5;
   const int steps = 100000;
   std::vector<Vector<float, 2>> plain(1, Vector<float, 2>(0.1f, 0.05f)), kept = plain,

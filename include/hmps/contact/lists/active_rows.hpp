@@ -12,15 +12,17 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The Verlet list that contact evaluates: rows of one slave each with the masters it may touch, and its transpose,
-/// the rows that each master is in. `rows()` and `awake()` hold one more at the end, where the last one's ends begin.
+/// The Verlet list that contact evaluates: rows, each of one slave with the masters that it may touch, and the
+/// transpose, the rows that each master is in. `rows()` and `awake()` have an extra element at the end, whose begins
+/// are the ends of the last one.
 ///
-/// All orders follow the particles' indices, so sums over the pairs that touch do not depend on when lists were made.
+/// Everything is in the order of the particles' indices, so sums over the pairs that touch do not depend on when lists
+/// were built.
 template <class S>
 class ActiveRows {
  public:
   struct Row {
-    Index slave;  // of the awake particles
+    Index slave;  // number among the awake particles
     std::uint32_t side;
     Index slot;
     Index begin;    // of its candidates
@@ -29,17 +31,17 @@ class ActiveRows {
   struct Awake {
     Index particle;
     std::uint8_t flags;
-    Index rows, entries;  // begins of its rows as a slave in slave_rows, of its entries as a master
+    Index rows, entries;  // where its rows as a slave begin in slave_rows, and its entries as a master
   };
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
-  /// Every particle of the rows once, ascending.
+  /// Every particle in the rows once, ascending.
   [[nodiscard]] const std::vector<Awake>& awake() const { return awake_; }
-  /// Per candidate, one of the awake particles.
+  /// Per candidate, the number of its master among the awake particles.
   [[nodiscard]] const std::vector<Index>& master_of() const { return master_of_; }
   /// Per candidate, its place among the entries of its master.
   [[nodiscard]] const std::vector<Index>& entry_of() const { return entry_of_; }
-  /// Per entry, the row of that candidate: ascending for each master.
+  /// Per entry, the row of its candidate: ascending for each master.
   [[nodiscard]] const std::vector<Index>& entry_rows() const { return entry_rows_; }
   /// The rows of each slave, ascending.
   [[nodiscard]] const std::vector<Index>& slave_rows() const { return slave_rows_; }
@@ -48,12 +50,13 @@ class ActiveRows {
     rows_.clear();
     master_of_.clear();
   }
-  /// Adds a row whose slave and masters (from `first` to `last`) are numbers of particles.
+  /// Adds a row, whose slave and masters (from `first` to `last`) are given by their numbers.
   void add(Index slave, std::uint32_t side, Index slot, S compression, const Index* first, const Index* last) {
     rows_.push_back({slave, side, slot, static_cast<Index>(master_of_.size()), compression});
     master_of_.insert(master_of_.end(), first, last);
   }
-  /// Completes the list after the last row was added: numbers the awake particles and lists what refers to each.
+  /// Completes the list after the last row has been added: numbers the awake particles and lists the rows and entries
+  /// of each.
   void finish(const OrganPairs& organs);
 
  private:
@@ -62,7 +65,7 @@ class ActiveRows {
   std::vector<Row> rows_;
   std::vector<Awake> awake_;
   std::vector<Index> master_of_, entry_of_, entry_rows_, slave_rows_;
-  std::vector<Index> awake_of_;  // scratch, of the numbered particles
+  std::vector<Index> awake_of_;  // scratch, per numbered particle
 };
 
 template <class S>
@@ -86,7 +89,7 @@ void ActiveRows<S>::finish(const OrganPairs& organs) {
   for (Row& row : rows_) ++awake_[row.slave = awake_of_[row.slave]].rows;
   for (Index& j : master_of_) ++awake_[j = awake_of_[j]].entries;
   rows_.push_back({0, 0, 0, static_cast<Index>(master_of_.size()), 0});
-  // Ends first; filling backwards moves each on to its begin.
+  // At first these are ends; filling backwards moves each of them down to its begin.
   for (std::size_t t = 1; t < awake_.size(); ++t) {
     awake_[t].rows += awake_[t - 1].rows;
     awake_[t].entries += awake_[t - 1].entries;

@@ -16,21 +16,22 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// A type-erased executor, so that code that runs rarely is compiled once.
+/// A type-erased executor, so that code that runs rarely is compiled only once.
 using AnyExecutor = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 
-/// The broad-phase list: for every slave the masters within reach plus a margin, in rows of one slave of one side each.
+/// The broad-phase list: for every slave, the masters within reach plus a margin. Each row belongs to one slave of one
+/// side.
 template <class S, int D>
 class BroadPhase {
  public:
   using Point = Vector<S, D>;
   struct Row {
-    Index slave;  // of the numbered particles
+    Index slave;  // number of the particle
     std::uint32_t side;
     Index slot;
     Index begin;  // of its candidates
   };
-  /// What the list is made of; all but `organs` per numbered particle.
+  /// What the list is built from; the vectors have one element per numbered particle.
   struct Source {
     const OrganPairs& organs;
     const std::vector<Point>& place;    // in m
@@ -42,13 +43,13 @@ class BroadPhase {
   /// Throws `InputError` if there are more candidates than an index can number.
   void build(const Source& source, const AnyExecutor& execute);
 
-  /// One more at the end, where the last one's candidates end.
+  /// With an extra row at the end, whose `begin` is the end of the last row's candidates.
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   /// Per candidate, the number of its master: ascending in each row.
   [[nodiscard]] const std::vector<Index>& masters() const { return masters_; }
-  /// How much the organs of a side may move in m, and reaches grow, before the list misses something.
+  /// How much (m) the organs of a side may move, and reaches grow, in all before the list may miss a pair.
   [[nodiscard]] S limit(std::size_t side) const { return limit_[side]; }
-  /// The rows that particle `i` is in are `rows_of()[rows_of_begin(i)]` to before `rows_of()[rows_of_begin(i + 1)]`.
+  /// Particle `i` is in the rows `rows_of()[q]` with q from `rows_of_begin(i)` to `rows_of_begin(i + 1) - 1`.
   [[nodiscard]] const std::vector<Index>& rows_of() const { return rows_of_; }
   [[nodiscard]] Index rows_of_begin(std::size_t i) const { return rows_of_begin_[i]; }
 
@@ -60,13 +61,13 @@ class BroadPhase {
       high = high.cwiseMax(place);
     }
     [[nodiscard]] bool empty() const { return !(low[0] <= high[0]); }
-    /// How far `place` lies outside, along the axis where that is most.
+    /// How far `place` lies outside, along the axis where it lies furthest outside.
     [[nodiscard]] S distance(const Point& place) const { return (low - place).cwiseMax(place - high).maxCoeff(); }
   };
   struct Near {
     Index slave, master;
   };
-  struct Part {  // of one side: slaves with their slots, and masters, that could meet
+  struct Part {  // of one side: the slaves, with their slots, and the masters that could meet
     std::vector<Index> slaves, slots, masters;
   };
 
@@ -95,7 +96,8 @@ void BroadPhase<S, D>::build(const Source& source, const AnyExecutor& execute) {
   list_rows_of_particles(source.place.size());
 }
 
-/// Only what lies in the other's box, grown by what it reaches, is looked at.
+/// Chooses the slaves in the box of the masters, and the masters in the box of these slaves, where each box is enlarged
+/// by reach and margin.
 template <class S, int D>
 typename BroadPhase<S, D>::Part BroadPhase<S, D>::choose(const Source& source, std::size_t s) {
   const OrganPairs::Side& side = source.organs.sides()[s];
@@ -122,7 +124,7 @@ typename BroadPhase<S, D>::Part BroadPhase<S, D>::choose(const Source& source, s
     part.slaves.push_back(i);
     part.slots.push_back(static_cast<Index>(side.first_slot + m - a.begin));
   }
-  // Organs far apart bear as much motion as lies between them; all slaves excluded: any.
+  // Organs far apart tolerate as much motion as lies between them; with all slaves excluded, any motion.
   const S apart = all_slaves.empty()
                       ? std::numeric_limits<S>::max() / S(4)
                       : (wall.low - all_slaves.high).cwiseMax(all_slaves.low - wall.high).maxCoeff() - widest;
@@ -156,7 +158,7 @@ void BroadPhase<S, D>::search(const Source& source, std::size_t side, const Part
   append(side, part, found);
 }
 
-/// Sorts what was found by slaves. Masters ascend from batch to batch, so they ascend within every row.
+/// Sorts the pairs found by slave. Masters ascend from batch to batch, so they ascend within every row.
 template <class S, int D>
 void BroadPhase<S, D>::append(std::size_t side, const Part& part, const std::vector<std::vector<Near>>& found) {
   const std::size_t slaves = part.slaves.size(), first = masters_.size();

@@ -23,13 +23,13 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// The lists of slaves and masters that may touch. The broad-phase list (`BroadPhase`) holds the pairs within reach
-/// plus `margin`, in rows of one slave each. It is built anew when organs have moved, or a reach has grown, by that
-/// much (`OrganMotion`). Most of its rows sleep (`SleepingRows`): a check extrapolates the motion of the particles
+/// plus `margin`, in rows of one slave each. It is rebuilt when organs have moved, or a reach has grown, by that margin
+/// (`OrganMotion`). Most of its rows sleep (`SleepingRows`): a check extrapolates the motion of the particles
 /// (`ParticleBounds`) and judges which slaves cannot touch before the next check. Every later call wakes the rows of
-/// particles that deviate from it; the rows that are awake make up the Verlet list that is evaluated (`ActiveRows`).
-/// When the next check is due is up to `CheckSchedule`.
+/// particles that deviate from this motion; the rows that are awake make up the Verlet list that is evaluated
+/// (`ActiveRows`). `CheckSchedule` decides when the next check is due.
 ///
-/// All orders follow the particles' indices, so sums over contacts do not depend on when lists were built.
+/// Everything is in the order of the particles' indices, so sums over contacts do not depend on when lists were built.
 ///
 /// The particles of all organs are numbered once each, in the order of their indices; a member is such a particle in
 /// one organ. A row is a slave of one side (an ordered pair of organs).
@@ -77,7 +77,7 @@ class Candidates {
   void check(const X& x, const Gradients& F, const E& execute);
 
  private:
-  /// In evaluations of one candidate.
+  /// Counted in evaluations of one candidate.
   [[nodiscard]] std::size_t cost_of_check() const { return list_.masters().size() / 2 + 2 * organs_.particle().size(); }
   [[nodiscard]] typename SleepingRows<S, D, Kernel>::Source source() const {
     return {organs_, list_, particles_, normal_density_};
@@ -166,7 +166,7 @@ bool Candidates<S, D, Kernel>::is_used_up() const {
 template <class S, int D, Metaball Kernel>
 template <class X, class E>
 void Candidates<S, D, Kernel>::build(const X& x, const E& execute) {
-  built_ = false;  // until it is
+  built_ = false;  // until the build succeeds
   particles_.centre_origin(x, organs_.particle());
   motion_.restart(particles_.place(), particles_.reach());
   list_.build({organs_, particles_.place(), particles_.reach(), particles_.compression(), particles_.radius(), margin_},
@@ -175,10 +175,10 @@ void Candidates<S, D, Kernel>::build(const X& x, const E& execute) {
   ++rebuilds_;
 }
 
-/// Limits the motion until the next check to what the broad-phase list bears.
+/// Limits the motion until the next check to what the broad-phase list tolerates.
 template <class S, int D, Metaball Kernel>
 void Candidates<S, D, Kernel>::limit_travel() {
-  // Two particles may approach by twice that; the rest is for the growth of reaches.
+  // Two particles may approach each other by twice `most`; the rest is for the growth of reaches.
   S most = std::numeric_limits<S>::max();
   for (std::size_t s = 0; s < organs_.sides().size(); ++s)
     most = std::min(most, S(0.4) * (list_.limit(s) - motion_.used(organs_.sides()[s])));
@@ -186,7 +186,7 @@ void Candidates<S, D, Kernel>::limit_travel() {
   particles_.limit_travel(most, schedule_.interval().until);
 }
 
-/// Makes up the list of active rows.
+/// Builds the list of active rows.
 template <class S, int D, Metaball Kernel>
 void Candidates<S, D, Kernel>::select() {
   active_.clear();

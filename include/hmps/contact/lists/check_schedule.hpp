@@ -10,37 +10,38 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// The calls between two checks of the lists.
 struct CheckInterval {
-  std::size_t since;  // the latest check until now; in a check, since the previous one
-  std::size_t until;  // the next check, counted from the latest; in a check, from now
-  /// What changed by `c` since the latest check may change by `ratio()` times `c` until the next.
+  std::size_t since;  // calls since the latest check; in a check, since the previous one
+  std::size_t until;  // calls from the latest check to the next; in a check, from now on
+  /// At the same rate, what changed by `c` since the latest check changes by `ratio()` times `c` until the next.
   template <class S>
   [[nodiscard]] S ratio() const {
     return static_cast<S>(until) / static_cast<S>(std::max<std::size_t>(since, 1));
   }
 };
 
-/// When the lists of contact are checked again: when rows that woke since the latest check have cost as much as a
-/// check, and after an interval of `shortest` to `longest` calls. Deformation gradients are looked at in checks only,
-/// so the interval is limited even where nothing moves.
+/// Decides when the lists of contact are checked again: when rows that woke since the latest check have cost more than
+/// a check, or else after an interval of `shortest` to `longest` calls. Deformation gradients are read only in checks,
+/// so the interval is limited even if nothing moves.
 ///
-/// All costs are in evaluations of one candidate.
+/// All costs are counted in evaluations of one candidate.
 class CheckSchedule {
  public:
   static constexpr std::size_t shortest = 8, longest = 64;
 
-  /// Counts a call. `woken` is the number of candidates that are awake now but slept at the latest check, `cost` that
-  /// of a check. Returns whether a check is due.
+  /// Counts a call. `woken` is the number of candidates that are awake now but slept at the latest check, `cost` the
+  /// cost of a check. Returns whether a check is due.
   [[nodiscard]] bool count_call(std::size_t woken, std::size_t cost) {
     woken_work_ += woken;
     return ++age_ >= interval_ || woken_work_ > cost;
   }
 
-  /// In a check: chooses the interval that begins, from the cost of a check and the number of active candidates.
+  /// In a check: chooses the interval that begins then, from the cost of a check and the number of active candidates.
   void choose_interval(std::size_t active, std::size_t cost) {
     // Sharper lists are worth about a tenth of the cost of evaluating them.
     interval_ = std::clamp<std::size_t>(8 * cost / (active + 1), shortest, longest);
   }
-  /// Shortens that interval so that what moves by `speed` in each call moves by `most` at the most, or to `shortest`.
+  /// Shortens that interval so that a particle that moves by `speed` per call moves by at most `most`, but not below
+  /// `shortest`.
   template <class S>
   void limit_travel(S speed, S most) {
     if (static_cast<S>(interval_) * speed > most)

@@ -10,7 +10,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/lane_math.hpp"
 
-/// What the lists of contact read of deformation gradients.
+/// How the lists of contact read deformation gradients.
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Deformation gradients of undeformed or rigid particles.
@@ -30,8 +30,8 @@ template <class S, int D, class Gradients, class Particle>
   return lanes;
 }
 
-/// An upper bound of the largest singular value of F, exact in 2D and for equal stretches: mean plus
-/// sqrt(D - 1) standard deviations of the eigenvalues of F^T F (Wolkowicz and Styan 1980).
+/// An upper bound of the largest singular value of F, exact in 2D and for equal stretches: the square root of the mean
+/// plus sqrt(D - 1) standard deviations of the eigenvalues of F^T F (Wolkowicz and Styan 1980).
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE T stretch_bound(const Matrix<T, D>& F) {
   using std::sqrt;

@@ -15,23 +15,24 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// How far organs have moved, and the reaches of their masters have grown, since the broad-phase list was built: how
-/// much of its margin that list has used. Two organs that move along together use nothing of it, so the mean
-/// displacement of an organ counts apart from the motion of its members beside it.
+/// much of the list's margin is used up. Two organs that move together use none of it, so the mean displacement of an
+/// organ is counted separately from the motion of its members relative to that mean.
 template <class S, int D>
 class OrganMotion {
  public:
   using Point = Vector<S, D>;
 
-  /// Starts anew with the members of `organs`, whose particles are numbered.
+  /// Starts anew with the members of `organs`, whose particles must be numbered.
   void resize(const OrganPairs& organs);
-  /// The broad-phase list was built from these places and reaches in m, one per numbered particle.
+  /// Takes the places and reaches (m, one per numbered particle) from which the broad-phase list was built.
   void restart(const std::vector<Point>& place, const std::vector<S>& reach);
   /// Measures the motion since `restart`. Throws `StateError` if a place is not finite.
   template <class E>
   void measure(const OrganPairs& organs, const std::vector<Point>& place, const std::vector<S>& reach,
                const E& execute);
 
-  /// By how much in m a slave and a master of `side` may have approached, and its reach have grown, since `restart`.
+  /// How much (m) a slave and a master of `side` may have approached each other, plus how much the master's reach may
+  /// have grown, since `restart`.
   [[nodiscard]] S used(const OrganPairs::Side& side) const {
     const Motion &a = motion_[side.slaves], &b = motion_[side.masters];
     return a.beside + b.beside + (a.mean - b.mean).norm() + b.growth;
@@ -41,7 +42,7 @@ class OrganMotion {
   static constexpr std::size_t chunk = 512;
   struct Motion {      // of an organ
     Point mean;        // displacement
-    S beside, growth;  // largest displacement beside the mean, largest growth of a reach
+    S beside, growth;  // largest displacement relative to the mean, largest growth of a reach
   };
   struct Part {  // of an organ's members
     std::size_t organ, begin, end;
@@ -117,7 +118,7 @@ void OrganMotion<S, D>::measure(const OrganPairs& organs, const std::vector<Poin
     // A NaN slips through the maxima but not through the sum.
     if (!all_finite(organ.mean)) fail(organs, range, place);
     organ.mean /= static_cast<S>(range.end - range.begin);
-    // The parts measured against the previous mean, which serves as well as the present one, at that much more.
+    // The parts are relative to the previous mean. Adding the change of the mean makes this a bound for the new one.
     organ.beside = std::sqrt(organ.beside) + (organ.mean - previous[o]).norm();
   }
 }

@@ -27,9 +27,9 @@ inline constexpr Index no_particle = std::numeric_limits<Index>::max();
 
 /// The organs of a scene and the pairs that may touch: declared once, without any state.
 ///
-/// A member is a particle in one organ. Members are stored organ by organ, sorted by particle in each. All particles
-/// that are members are numbered once, in the order of their indices. A side is an ordered pair of organs: the slaves
-/// of one at the wall of the other.
+/// A member is a particle in one organ. Members are stored organ by organ, sorted by particle within each. All
+/// particles that are members are numbered once, in the order of their indices. A side is an ordered pair of organs:
+/// the slaves of one at the wall of the other.
 class OrganPairs {
  public:
   struct OrganRange {
@@ -47,7 +47,7 @@ class OrganPairs {
   struct Side {
     std::size_t slaves, masters;  // organs
     std::size_t pair;
-    std::size_t first_slot;  // its slaves have a slot each, for what is to be remembered of them from call to call
+    std::size_t first_slot;  // each of its slaves has a slot, for what contact remembers of it from call to call
   };
   struct Member {
     Index particle, number;
@@ -55,12 +55,12 @@ class OrganPairs {
     double radius;  // r_0 in m of a slave
   };
 
-  /// Returns the number of the organ. Throws `InputError` if it is empty, and for the radius of a slave beyond three
-  /// quarters of a spacing (m).
+  /// Returns the number of the organ. Throws `InputError` if it is empty, and for a slave whose radius is not positive
+  /// or exceeds three quarters of `spacing` (m).
   std::size_t add_organ(const Organ& organ, double spacing);
   /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
-  /// Numbers the particles. Call it after the last organ was added.
+  /// Numbers the particles. Call it after the last organ has been added.
   void number_particles();
 
   [[nodiscard]] const std::vector<OrganRange>& organs() const { return organs_; }
@@ -128,11 +128,11 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
   for (const Index i : organ.masters) all.emplace_back(i, is_master);
   std::sort(all.begin(), all.end());
   require(all.back().first != no_particle, "hmps: organ '", organ.name, "' names particle ", no_particle,
-          ", which is no index");
+          ", which is not a valid index");
   const ParticleSet* const prescribed_set = set_in(organ.prescribed);
   require(prescribed_set == nullptr || all.back().first < prescribed_set->scene_size(), "hmps: organ '", organ.name,
-          "' names particle ", all.back().first, ", but its set of prescribed particles is of a scene of ",
-          prescribed_set == nullptr ? 0 : prescribed_set->scene_size(), "; make it for all particles");
+          "' names particle ", all.back().first, ", but its set of prescribed particles is for a scene of ",
+          prescribed_set == nullptr ? 0 : prescribed_set->scene_size(), " particles; make the set for all particles");
   std::vector<Member> own;
   for (auto at = all.begin(); at != all.end();) {
     const Index i = at->first;
@@ -151,8 +151,8 @@ inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double
   constexpr double most = 0.75;  // half of the widest layers that `fit_particles` makes
   const double radius = organ.radius(slave);
   require(is_finite(radius) && radius > 0 && radius <= most * spacing, "hmps: slave ", slave, " of organ '", organ.name,
-          "' has a radius of ", radius, " m; it is about half the spacing of ", spacing,
-          " m, and must be positive and at most ", most * spacing, " m");
+          "' has a radius of ", radius, " m; give about half the spacing of ", spacing,
+          " m, a positive length of at most ", most * spacing, " m");
   return radius;
 }
 
@@ -168,13 +168,13 @@ inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const Pair
   }
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     require(!(pairs_[p].first == a && pairs_[p].second == b) && !(pairs_[p].first == b && pairs_[p].second == a),
-            "hmps: organs '", organs_[a].name, "' and '", organs_[b].name, "' already are contact pair ", p,
+            "hmps: organs '", organs_[a].name, "' and '", organs_[b].name, "' are already contact pair ", p,
             "; declare a pair once (the order does not matter), or its forces count twice");
   std::vector<Index> excluded(settings.excluded_slaves.begin(), settings.excluded_slaves.end());
   std::sort(excluded.begin(), excluded.end());
   for (const Index i : excluded)
     require(is_slave_of(a, i) || is_slave_of(b, i), "hmps: particle ", i, " is excluded from the contact of '",
-            organs_[a].name, "' and '", organs_[b].name, "' but is slave of neither; give indices of their slaves");
+            organs_[a].name, "' and '", organs_[b].name, "' but is a slave of neither; give indices of their slaves");
   const Pair pair{a, b, std::move(excluded), settings.excluded};
   const bool first = settings.roles != Roles::only_second_is_slave,
              second = settings.roles != Roles::only_first_is_slave;
@@ -204,9 +204,9 @@ inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, cons
     return std::ranges::any_of(members_of(o), [&](const Member& member) { return (member.flags & role) != 0; });
   };
   require(any(slaves, is_slave), "hmps: organ '", organs_[slaves].name, "' has no slaves but is to touch '",
-          organs_[masters].name, "'; give it slaves, or let only the other be slave");
+          organs_[masters].name, "'; give it slaves, or choose `roles` in which only the other organ is slave");
   require(any(masters, is_master), "hmps: organ '", organs_[masters].name, "' has no masters but is to be touched by '",
-          organs_[slaves].name, "'; give it masters, or let only it be slave");
+          organs_[slaves].name, "'; give it masters, or choose `roles` in which only this organ is slave");
   for (const Side& side : sides_) {
     const Pair& other = pairs_[side.pair];
     std::vector<Index> common_slaves = common(slaves, side.slaves, is_slave);

@@ -20,12 +20,13 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The particles of all organs as the latest check measured them, and bounds of what they do until the next.
+/// The particles of all organs as the latest check measured them, and bounds on their motion and strain until the next.
 ///
 /// A particle is expected to drift on as it moved between the two latest checks. The bounds say how far it may deviate
-/// from that and how much it may deform. They are a multiple of what it did since the previous check, because motion
-/// seldom changes faster, but not less than a least amount. Whoever relies on them compares: `deviation_squared` tells
-/// how far a particle has deviated by now, and `measure` whether one has deformed further.
+/// from this drift and how much it may deform. They are a multiple of its deviation and deformation since the previous
+/// check, because motion seldom changes faster, but never less than a minimum. Code that relies on the bounds must
+/// check them: `deviation_squared` tells how far a particle has deviated by now, and `measure` whether one has deformed
+/// further.
 template <class S, int D>
 class ParticleBounds {
  public:
@@ -39,19 +40,19 @@ class ParticleBounds {
   /// Starts anew with `count` numbered particles.
   void resize(std::size_t count);
 
-  /// Measures the particles; `particle` holds their indices in `x` and `F`. `interval`: since the previous measurement
-  /// and until the next. If `is_first`, what was measured before counts for nothing. Returns whether a particle i with
-  /// `is_listed(i)` has deformed by more than was allowed for. Throws as `require_gradient` does.
+  /// Measures the particles; `particle` holds their indices in `x` and `F`. `interval` holds the calls since the
+  /// previous measurement and until the next. If `is_first`, earlier measurements are ignored. Returns whether a
+  /// particle i with `is_listed(i)` has deformed by more than was allowed for. Throws as `require_gradient` does.
   template <class X, class Gradients, class Listed, class E>
   [[nodiscard]] bool measure(const X& x, const Gradients& F, const std::vector<Index>& particle, bool is_first,
                              const CheckInterval& interval, const Listed& is_listed, const E& execute);
   /// Moves the origin to the centre of the particles if they are so far from it that `S` resolves their distances only
   /// to 1e-4 spacings or worse, which for float is beyond about a thousand spacings; never if `S` is as wide as the
-  /// scalar type of `x`. Only before lists are built, because all places change.
+  /// scalar type of `x`. Call it only before lists are built, because all places change.
   template <class X>
   void centre_origin(const X& x, const std::vector<Index>& particle);
-  /// Limits what each particle may do within `calls` calls to `most` (m): its drift to half of it, and what it may do
-  /// besides to what the drift leaves.
+  /// Limits the travel of each particle within `calls` calls to `most` (m): its drift to half of that, and its
+  /// deviation to what the drift leaves.
   void limit_travel(S most, std::size_t calls);
 
   /// The position of particle `i` of the view `x`, in m from the origin of the lists. If `S` is narrower than the
@@ -65,7 +66,8 @@ class ParticleBounds {
     else
       return x[i].template cast<S>();
   }
-  /// The square in m2 of how far number `i` has deviated within `calls` calls. It is particle `index` of the view `x`.
+  /// The square (m2) of how far the particle with number `i` has deviated within `calls` calls; in the view `x` it is
+  /// particle `index`.
   template <class X>
   [[nodiscard]] HMPS_INLINE S deviation_squared(const X& x, Index index, std::size_t i, S calls) const {
     return (place_of(x, index) - expected(i, calls)).squaredNorm();
@@ -80,16 +82,16 @@ class ParticleBounds {
   /// r_e of a metaball in m.
   [[nodiscard]] S radius() const { return radius_; }
   // Of each numbered particle, at the latest measurement:
-  /// In m from the origin of the lists.
+  /// Its place in m from the origin of the lists.
   [[nodiscard]] const std::vector<Point>& place() const { return place_; }
   /// A = F^-T F^-1.
   [[nodiscard]] const std::vector<Matrix<S, D>>& metric() const { return metric_; }
-  /// In m: r_e times a bound of the largest stretch.
+  /// Its reach in m: r_e times a bound of the largest stretch.
   [[nodiscard]] const std::vector<S>& reach() const { return reach_; }
-  /// A bound of |F^-1|; negative: flattened, no wall.
+  /// A bound of |F^-1|; negative if the particle is flattened and forms no wall.
   [[nodiscard]] const std::vector<S>& compression() const { return compression_; }
-  // And until the next:
-  /// The motion that is expected, in m per call.
+  // And until the next measurement:
+  /// The expected motion, in m per call.
   [[nodiscard]] const std::vector<Point>& drift() const { return drift_; }
   /// The largest deviation from it in m.
   [[nodiscard]] const std::vector<S>& deviation() const { return deviation_; }
@@ -102,7 +104,7 @@ class ParticleBounds {
   static constexpr std::size_t chunk = 512;
   struct Chunk {  // of particles
     bool is_late;
-    Index flat;  // the first of those without an inverse of F
+    Index flat;  // the first particle without an inverse of F
   };
   [[nodiscard]] HMPS_INLINE Point expected(std::size_t i, S calls) const { return place_[i] + calls * drift_[i]; }
   void move_to(std::size_t i, const Point& place, bool is_first, const CheckInterval& interval);
@@ -177,7 +179,7 @@ bool ParticleBounds<S, D>::measure(const X& x, const Gradients& F, const std::ve
       for (std::size_t l = 0; l < width && begin + l < end; ++l) {
         const std::size_t i = begin + l;
         move_to(i, place_of(x, particle[i]), is_first, interval);
-        // |B r| = sqrt(r . A r) changes by half of |dA| over the smallest eigenvalue of A, as a share.
+        // The relative change of |B r| = sqrt(r . A r) is at most half of |dA| over the smallest eigenvalue of A.
         const S change = S(0.5) * update_metric(i, A, l) * stretch.lane[l] * stretch.lane[l];
         found.is_late = found.is_late || (!is_first && is_listed(i) && change > strain_[i]);
         strain_[i] = is_first
@@ -197,7 +199,7 @@ bool ParticleBounds<S, D>::measure(const X& x, const Gradients& F, const std::ve
   return std::any_of(chunks_.begin(), chunks_.end(), [](const Chunk& part) { return part.is_late; });
 }
 
-/// Throws if F has no inverse although its particle is not flattened: a `StateError` or, if nothing has written it, an
+/// Throws if F has no inverse although its particle is not flattened: a `StateError` or, if nothing has written F, an
 /// `InputError`.
 template <class S, int D>
 template <class Gradients>

@@ -19,36 +19,36 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Whether a slave could touch a wall before the next check: judged from the drift of the particles and the bounds of
-/// their deviation and strain. A slave touches where R_im is less than half a spacing and its radius times its stretch
-/// along the normal over that of the wall, so both sides are bounded: R_im from below, the stretches from above.
+/// Judges whether a slave could touch a wall before the next check, from the drift of the particles and the bounds on
+/// their deviation and strain. A slave touches where R_im is less than half a spacing plus r_0 s_i / s_m, with s_i its
+/// stretch along the normal and s_m that of the wall, so both sides are bounded: R_im from below, s_i / s_m from above.
 template <class S, int D, Metaball Kernel>
 class SleepCriterion {
  public:
   using Point = Vector<S, D>;
-  /// What it judges by.
+  /// The data to judge by.
   struct Source {
     const ParticleBounds<S, D>& particles;
     const NormalDensity<S, D, Kernel>& normal_density;
     CheckInterval interval;  // since the previous check and until the next
   };
   struct Slave {
-    Index number, slot;  // the slot is its own, so that slaves are judged in parallel
+    Index number, slot;  // no two slaves share a slot, so that they are judged in parallel
     S radius;            // r_0 in m
   };
   struct Verdict {
     std::size_t kept;  // number of masters that could be within reach before the next check
     S compression;     // bound of |F_j^-1| of these
-    S rest;  // by which share of its bound each particle may deviate before the slave could touch: 1, 1/2, 1/4 or 0
+    S rest;  // share of its bound by which each particle may deviate before the slave could touch: 1, 1/2, 1/4 or 0
   };
 
   /// Starts anew with `slots` slaves.
   void resize(std::size_t slots) { facing_.assign(slots, Facing<S, D>()); }
 
-  /// Judges a slave and the `masters` of one wall. Writes those kept to `kept`, which has room for all.
+  /// Judges a slave and the `masters` of one wall. Writes the masters kept to `kept`, which must have room for all.
   [[nodiscard]] Verdict judge(const Source& source, const Slave& slave, std::span<const Index> masters, Index* kept);
 
-  /// Whether, when it was judged last, the wall of the slave at `slot` had turned further than was allowed for.
+  /// Whether the slave at `slot`, when it was last judged, had a wall that had turned further than was allowed for.
   [[nodiscard]] bool is_late(std::size_t slot) const { return facing_[slot].is_late(); }
 
  private:
@@ -67,9 +67,9 @@ class SleepCriterion {
   std::vector<Facing<S, D>> facing_;  // per slot
 };
 
-/// Selects the masters that could be within reach before the next check. Bounds C from above with every master as near
-/// as it comes if both continue their motion, and nearer by the deviation allowed for both. With B for F_j^-1 and a
-/// motion m, |B (r + m)| >= |B r| - |B| |m|.
+/// Selects the masters that could be within reach before the next check. Bounds C from above with every master as close
+/// as it comes if both particles continue their motion, and closer by the deviation allowed to both. With B = F_j^-1
+/// and a motion m, |B (r + m)| >= |B r| - |B| |m|.
 template <class S, int D, Metaball Kernel>
 typename SleepCriterion<S, D, Kernel>::Survey SleepCriterion<S, D, Kernel>::survey(const Source& source, Index slave,
                                                                                    std::span<const Index> masters,
@@ -100,9 +100,9 @@ typename SleepCriterion<S, D, Kernel>::Survey SleepCriterion<S, D, Kernel>::surv
   return found;
 }
 
-/// An upper bound until the next check of |F_i^T n| max |F_j^-1 n| over the masters: the distance R_im, less half a
-/// spacing and over as much, at which the slave touches. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a normal that
-/// turns by t changes them by t times the largest stretch.
+/// An upper bound, until the next check, of |F_i^T n| max |F_j^-1 n| over the masters: the slave touches where R_im
+/// less half a spacing is below r_0 times this. |F^T n| and |F^-1 n| follow from A = F^-T F^-1; a normal that turns by
+/// t changes them by at most t times the largest stretch.
 template <class S, int D, Metaball Kernel>
 S SleepCriterion<S, D, Kernel>::widest(const Source& source, Index slave, std::span<const Index> masters,
                                        Facing<S, D>& facing) {
@@ -145,7 +145,7 @@ typename SleepCriterion<S, D, Kernel>::Verdict SleepCriterion<S, D, Kernel>::jud
     verdict.rest = 0;
     return false;
   };
-  // First the bound for stretches and rotations in any direction; only if it is too large, the bound along the normal.
+  // Try the bound for stretches and rotations in any direction and, only if it is too large, that along the normal.
   const ParticleBounds<S, D>& particles = source.particles;
   const S stretch = (S(1) + particles.strain()[slave.number]) * particles.reach()[slave.number] / particles.radius();
   Facing<S, D>& facing = facing_[slave.slot];

@@ -19,9 +19,9 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Which rows of the broad-phase list sleep, and what wakes them. A check puts those to sleep of which the slave cannot
-/// touch as long as their particles deviate little from their drift. `watch` measures the deviation of every particle
-/// in each call, and wakes the rows for which it is too large.
+/// Which rows of the broad-phase list sleep, and what wakes them. A check puts a row to sleep if its slave cannot touch
+/// as long as the row's particles deviate little from their drift. `watch` measures the deviation of every particle in
+/// each call, and wakes the rows for which this deviation is too large.
 template <class S, int D, Metaball Kernel>
 class SleepingRows {
  public:
@@ -33,16 +33,16 @@ class SleepingRows {
     const NormalDensity<S, D, Kernel>& normal_density;
   };
 
-  /// Forgets what is known of the slaves at `slots` slots.
+  /// Forgets what is known of all slaves, which have `slots` slots.
   void resize(std::size_t slots) { criterion_.resize(slots); }
 
-  /// In a check: puts rows to sleep and wakes all others. `interval`: since the previous check and until the next.
-  /// Returns whether a row slept by a bound that its wall has exceeded.
+  /// In a check: puts rows to sleep and wakes all others. `interval` holds the calls since the previous check and until
+  /// the next. Returns whether a row slept because of a bound that its wall has exceeded.
   template <class E>
   [[nodiscard]] bool put_to_sleep(const Source& source, const CheckInterval& interval, const E& execute);
 
-  /// Wakes rows, `calls` after the check. Returns false if a particle has deviated by more than its bound, or is not
-  /// finite, so that a new check is due.
+  /// Wakes rows, `calls` calls after the check. Returns false if a particle has deviated by more than its bound, or is
+  /// not finite, so that a new check is due.
   template <class X, class E>
   [[nodiscard]] bool watch(const Source& source, const X& x, std::size_t calls, const E& execute);
 
@@ -54,9 +54,9 @@ class SleepingRows {
  private:
   static constexpr std::size_t chunk = 512;
   struct Row {
-    Index kept_end;  // of its candidates that could be within reach before the next check
+    Index kept_end;  // end of its candidates that could be within reach before the next check
     S compression;   // bound of |F_j^-1| of these
-    S rest;          // by which share of its bound each of its particles may deviate before it has to wake; zero: awake
+    S rest;          // share of its bound by which each of its particles may deviate before it must wake; zero: awake
   };
   struct Chunk {  // of particles
     std::size_t exceeding;
@@ -104,8 +104,8 @@ typename SleepingRows<S, D, Kernel>::Row SleepingRows<S, D, Kernel>::judge(const
   return {static_cast<Index>(row.begin + verdict.kept), verdict.compression, verdict.rest};
 }
 
-/// Each particle may deviate as far as the row that bears least of it, of those that sleep by a share of the bound.
-/// Rows that sleep by all of it wake in the check that is due then.
+/// Limits the deviation of each particle to what the least tolerant of its rows allows, among those that tolerate only
+/// a share of the bound. Rows that tolerate the whole bound wake in the check that is due when it is exceeded.
 template <class S, int D, Metaball Kernel>
 void SleepingRows<S, D, Kernel>::limit_allowances(const Source& source) {
   const std::vector<S>& bound = source.particles.deviation();
@@ -153,7 +153,7 @@ bool SleepingRows<S, D, Kernel>::watch(const Source& source, const X& x, std::si
 }
 
 /// Wakes the rows that must no longer sleep, given the deviation of one of their particles, and limits its allowance to
-/// what the others bear.
+/// what the other rows tolerate.
 template <class S, int D, Metaball Kernel>
 void SleepingRows<S, D, Kernel>::wake(const Source& source, Index particle, S deviation_squared) {
   const BroadPhase<S, D>& list = source.list;

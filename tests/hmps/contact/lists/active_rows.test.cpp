@@ -23,7 +23,7 @@ hmps::detail::OrganPairs organs() {
 TEST(ActiveRows, NumberWhatIsAwakeAndKnowTheRowsOfEach) {
   const auto pairs = organs();
   hmps::detail::ActiveRows<double> list;
-  for (int time = 0; time < 2; ++time) {  // the second time in memory that was used
+  for (int time = 0; time < 2; ++time) {  // the second time reuses the memory
     list.clear();
     const List first{3, 4}, second{4}, third{2};
     list.add(0, 0, 7, 1.5, first.data(), first.data() + 2);

@@ -18,7 +18,7 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 
 constexpr double radius = 1, margin = 0.5;
 
-/// Two clouds of particles beside each other, that overlap a little.
+/// Two clouds of particles side by side that overlap a little.
 struct Clouds {
   hmps::detail::OrganPairs organs;
   std::vector<Point> place;
@@ -32,7 +32,7 @@ struct Clouds {
         lists[cloud].push_back(static_cast<Index>(place.size()));
         place.emplace_back(u(random) + cloud * (4 + apart), u(random), u(random));
         reach.push_back(radius * (0.5 + 0.25 * u(random)));
-        compression.push_back(k % 10 == 0 ? -1 : 1);  // some are no walls
+        compression.push_back(k % 10 == 0 ? -1 : 1);  // some form no wall
       }
     const auto a = organs.add_organ({.name = "a", .slaves = lists[0], .masters = lists[0]}, 1);
     organs.add_pair(a, organs.add_organ({.name = "b", .slaves = lists[1], .masters = lists[1]}, 1), settings);

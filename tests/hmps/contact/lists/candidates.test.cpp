@@ -39,7 +39,7 @@ Pairs listed(const L& lists) {
   return pairs;
 }
 
-/// The pairs with c > 0 of the slaves that touch: what no list may miss.
+/// The pairs with c > 0 of the slaves that touch, which no list may miss.
 Pairs touching(const Pile& pile) {
   const hmps::NormalDensity<double, 3, hmps::SmoothMetaball> Z(pile.l0);
   Pairs pairs;
@@ -92,7 +92,7 @@ TEST(Candidates, NeverMissATouchWhileBodiesMove) {
   EXPECT_LT(lists.rebuilds(), 100U);
 }
 
-/// Rows that are awake, on average, while both bodies move along at 0.5 m/s.
+/// The mean number of awake rows while both bodies move together at 0.5 m/s.
 double awake_rows(Pile pile) {
   Lists lists(1e-3, 0.5e-3);
   declare(lists, pile);
@@ -108,13 +108,13 @@ double awake_rows(Pile pile) {
 }
 
 TEST(Candidates, SleepWhereOrgansMoveTogether) {
-  // A tenth of a spacing from touching, and as deep in.
+  // A tenth of a spacing from touching, and a tenth deep.
   EXPECT_EQ(awake_rows(Pile(1.1)), 0);
   EXPECT_GT(awake_rows(Pile(0.9)), 1);
 }
 
 TEST(Candidates, SleepBesideWhatIsStretchedAlongItsWall) {
-  // Half as long again both ways along the wall, and as much thinner: near if it were stretched towards the other.
+  // 1.5 times as long both ways along the wall and thinner by as much: near only if stretched towards the other body.
   Pile pile(1.2);
   for (auto& F : pile.F) F.diagonal() << 1.5, 1.5, 1 / 2.25;
   EXPECT_EQ(awake_rows(pile), 0);
@@ -167,7 +167,7 @@ TEST(Candidates, FollowTheStretchOfTheMaster) {
   for (const Index i : pile.plate.upper) pile.F[i] = tall;
   stretched.update(hmps::vectors(pile.x), hmps::matrices(pile.F), serial);
   EXPECT_FALSE(listed(stretched).empty());
-  // The same when the stretch comes later, once both have found it to stay.
+  // The same if the stretch comes later, once both lists have seen that it stays.
   plain.check(hmps::vectors(pile.x), hmps::matrices(pile.F), serial);
   EXPECT_TRUE(std::ranges::includes(listed(plain), listed(stretched)));
   for (int k = 0; k < 20; ++k)

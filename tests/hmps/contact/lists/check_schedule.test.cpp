@@ -23,7 +23,7 @@ std::size_t calls_until_due(CheckSchedule& schedule, std::size_t woken, std::siz
 TEST(CheckInterval, ComparesWhatIsToComeWithWhatHasBeen) {
   EXPECT_EQ((CheckInterval{4, 10}.ratio<double>()), 2.5);
   EXPECT_EQ((CheckInterval{16, 4}.ratio<float>()), 0.25F);
-  EXPECT_EQ((CheckInterval{0, 8}.ratio<double>()), 8) << "a check twice in one call";
+  EXPECT_EQ((CheckInterval{0, 8}.ratio<double>()), 8) << "two checks in one call";
 }
 
 TEST(CheckSchedule, EndsAnIntervalAfterSoManyCalls) {

@@ -43,7 +43,7 @@ TEST(Facing, IsLateIfATrustedNormalHasTurnedFurther) {
       facing.update(at(turn), 1);
       EXPECT_EQ(facing.is_late(), trusted && turn > Facing::first_turn) << turn;
       facing.update(at(turn), 1);
-      EXPECT_FALSE(facing.is_late()) << "told once";
+      EXPECT_FALSE(facing.is_late()) << "reported only once";
     }
 }
 
@@ -56,7 +56,7 @@ TEST(Facing, StartsAnewWhereNoNormalWasAskedFor) {
   facing.forget();
   EXPECT_FALSE(facing.is_late());
   facing.update(at(1.5), 1);
-  EXPECT_FALSE(facing.is_late()) << "nothing is known of where it was";
+  EXPECT_FALSE(facing.is_late()) << "its previous direction is not known";
   EXPECT_EQ(facing.turn(), Facing::first_turn);
 }
 

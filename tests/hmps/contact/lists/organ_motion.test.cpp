@@ -17,8 +17,8 @@ namespace organ_motion_test {
 using hmps::Index;
 using Point = hmps::Vector<double, 3>;
 
-/// Two organs of `size` particles each, that touch in both roles: sides 0 and 1. The first particle of each is a slave
-/// only.
+/// Two organs of `size` particles each that touch in both roles: sides 0 and 1. The first particle of each is only a
+/// slave.
 struct Organs {
   std::size_t size;
   hmps::detail::OrganPairs pairs;
@@ -51,7 +51,7 @@ TEST(OrganMotion, IsNothingIfOrgansMoveTogether) {
   EXPECT_EQ(organs.used(0), 0);
   for (Point& x : organs.place) x += Point(0.25, 0.5, -2);
   organs.measure();
-  organs.measure();  // the first measures beside the previous mean
+  organs.measure();  // the first call measures relative to the previous mean
   EXPECT_NEAR(organs.used(0), 0, 1e-12);
   EXPECT_NEAR(organs.used(1), 0, 1e-12);
 }
@@ -95,7 +95,7 @@ TEST(OrganMotion, IsABoundWhileTheMeanMovesBack) {
   Organs organs(3);
   for (std::size_t k = 0; k < 3; ++k) organs.place[k][0] += 1;
   organs.measure();
-  // Two of three go back half the way and one goes on as far, so that it is 1.5 from where it was.
+  // Two of three go back half the way and one goes on by as much, so that it is 1.5 from where it was.
   organs.place[0][0] -= 0.5;
   organs.place[1][0] -= 0.5;
   organs.place[2][0] += 0.5;

@@ -27,7 +27,7 @@ TEST(OrganPairs, NumberEachParticleOnceInTheOrderOfIndices) {
   EXPECT_EQ(pairs.particle(), (List{3, 5, 7, 9}));
   EXPECT_EQ(pairs.flags(),
             (std::vector<std::uint8_t>{is_slave | is_master, is_master, is_master | is_prescribed, is_slave}));
-  EXPECT_EQ(pairs.particles_of(a, is_slave), (List{3, 9})) << "one that is listed twice counts once";
+  EXPECT_EQ(pairs.particles_of(a, is_slave), (List{3, 9})) << "a particle that is listed twice counts once";
   EXPECT_EQ(pairs.particles_of(a, is_master), (List{3, 5}));
   for (const auto& member : pairs.members()) EXPECT_EQ(pairs.particle()[member.number], member.particle);
   List movable;
@@ -62,7 +62,7 @@ TEST(OrganPairs, RefuseWhatWouldCountTwice) {
   EXPECT_THROW(pairs.add_pair(a, b, {}), hmps::InputError);
   EXPECT_THROW(pairs.add_pair(b, a, {}), hmps::InputError);
   EXPECT_THROW(pairs.add_pair(a, again, {}), hmps::InputError);
-  EXPECT_NO_THROW(pairs.add_pair(a, c, {})) << "slaves shared, but no masters";
+  EXPECT_NO_THROW(pairs.add_pair(a, c, {})) << "slaves are shared, but no masters";
   EXPECT_NO_THROW(pairs.add_pair(again, c, {})) << "the same with masters shared";
   EXPECT_EQ(pairs.pairs().size(), 3U);
   EXPECT_EQ(pairs.sides().size(), 6U);

@@ -69,11 +69,11 @@ TEST(ParticleBounds, ExpectEachParticleToDriftOn) {
   EXPECT_NEAR((p.bounds.drift()[570] - step).norm(), 0, 1e-15);
   EXPECT_TRUE(p.bounds.drift()[569].isZero(0));
   EXPECT_NEAR(p.bounds.fastest(), step.norm(), 1e-15);
-  // It stood still before: it may deviate by twice as much in each call.
+  // It stood still before, so it may deviate by twice as much in each call.
   EXPECT_NEAR(p.bounds.deviation()[570], 0.01 * spacing + 2 * 2.5 * 4 * step.norm(), 1e-15);
   EXPECT_NEAR(p.bounds.deviation()[569], 0.01 * spacing, 1e-15);
   EXPECT_NEAR(p.deviation(570, 0), 0, 1e-15);
-  EXPECT_NEAR(p.deviation(570, 3), 3 * step.norm(), 1e-15) << "three calls later it still stands";
+  EXPECT_NEAR(p.deviation(570, 3), 3 * step.norm(), 1e-15) << "three calls later it still stands where it was";
   p.place(570) += 10 * step;
   EXPECT_NEAR(p.deviation(570, 10), 0, 1e-15);
   (void)p.measure(false, 10, 10);
@@ -126,7 +126,7 @@ TEST(ParticleBounds, RefuseGradientsThatAreNone) {
 TEST(ParticleBounds, AllowAMultipleOfTheLatestStrain) {
   Particles<double> p(8);
   (void)p.measure(true, 0, 8);
-  // All lengths that B measures change by 1 - 1/1.01; the bound of it is sqrt(3) as much for a change in all
+  // All lengths that B measures change by 1 - 1/1.01; the bound on this is sqrt(3) times as much for a change in all
   // directions.
   p.gradient(2) *= 1.01;
   const double change = 0.5 * std::sqrt(3.) * (1 - 1 / (1.01 * 1.01)) * 1.01 * 1.01;
@@ -139,7 +139,7 @@ TEST(ParticleBounds, AllowAMultipleOfTheLatestStrain) {
   EXPECT_EQ(p.bounds.strain()[2], 0.01);
 }
 
-// Strains of 3.5 % and 7 %, where 5 % are allowed for at first.
+// Strains of 3.5 % and 7 %, where 5 % is allowed for at first.
 TEST(ParticleBounds, TellWhetherAListedParticleHasDeformedFurther) {
   for (const std::size_t i : {2U, 5U})
     for (const bool is_first : {false, true})
@@ -162,7 +162,7 @@ TEST(ParticleBounds, MeasurePlacesFromAnOriginThatIsCloseEnough) {
     EXPECT_NEAR((apart - (p.place(i) - p.place(0))).norm(), 0, 2e-4 * spacing);
     EXPECT_EQ(p.bounds.place()[i], p.bounds.place_of(hmps::vectors(p.x), p.particle[i]));
   }
-  // It stays where it is as long as that does.
+  // The origin stays where it is as long as it is close enough.
   const auto first = p.bounds.place()[0];
   for (Point& x : p.x) x += Point(0.1, 0, 0);
   (void)p.measure(false, 1, 8);

@@ -22,7 +22,7 @@ using Tensor = hmps::Matrix<double, 3>;
 
 constexpr double radius = Ball::radius;  // the spacing is 1
 
-/// A flat wall of three layers, and particle 0, the slave, `height` over the outermost.
+/// A flat wall of three layers, and particle 0, the slave, `height` above the outermost.
 struct Wall {
   std::vector<Index> particle, masters;
   std::vector<Point> x;
@@ -46,7 +46,7 @@ struct Wall {
     bounds.resize(x.size());
     criterion.resize(1);
     measure(true);
-    for (int k = 0; k < 4; ++k) measure();  // until strains have fallen to their least bound
+    for (int k = 0; k < 4; ++k) measure();  // until the bounds on strains have fallen to their minimum
   }
   void measure(bool is_first = false) {
     (void)bounds.measure(
@@ -54,7 +54,7 @@ struct Wall {
         hmps::Serial{});
     bounds.limit_travel(1e3, interval.until);
   }
-  /// Lets all move by so much that each may deviate by `bound` until the next check.
+  /// Moves all particles so far that each may deviate by `bound` until the next check.
   void allow(double bound) {
     for (Point& p : x) p[0] += 0.5 * (bound - 0.01);
     measure();
@@ -65,7 +65,7 @@ struct Wall {
     kept.resize(verdict.kept);
     return verdict;
   }
-  /// R_im with the slave `lower` and all masters higher by as much.
+  /// R_im with the slave lower by `lower` and all masters higher by as much.
   [[nodiscard]] double distance(double lower) const {
     double C = 0;
     for (const Index j : masters)
@@ -88,7 +88,7 @@ TEST(SleepCriterion, LetsASlaveRestOnlyAsFarAsItCannotTouch) {
     if (rest > 0) {
       EXPECT_GE(wall.distance(rest * 0.15), 1) << height;
     }
-    // Nor less than that, but for what strains and the direction of the deviations may add.
+    // And not less than that, except for what strains and the direction of the deviations may add.
     if (rest < 1) {
       EXPECT_LT(wall.distance((rest > 0 ? 2 * rest : 0.25) * 0.15), 1.2) << height;
     }
@@ -174,9 +174,9 @@ TEST(SleepCriterion, BoundsStretchesAlongTheNormal) {
 
 TEST(SleepCriterion, AllowsForATurnOfTheNormal) {
   for (const bool of_wall : {false, true}) {
-    // Long beside the wall, or narrow and therefore wide where it were turned.
+    // Long along the wall, or narrow and therefore wide if it were turned.
     Wall wall(1.2);
-    wall.x[0][0] = 0;  // where the normal is upright even if the wall is rough
+    wall.x[0][0] = 0;  // where the normal is upright even though the wall is rough
     for (std::size_t i = 0; i < wall.F.size(); ++i)
       if ((i > 0) == of_wall) wall.F[i](0, 0) = of_wall ? 1 / 2.5 : 2.5;
     for (int k = 0; k < 8; ++k) wall.measure();
@@ -199,12 +199,12 @@ TEST(SleepCriterion, IsLateIfATrustedWallHasTurnedFurther) {
     for (Point& x : wall.x) x = turn * x;
     for (Tensor& F : wall.F) F = turn * F;
     wall.measure();
-    wall.bounds.limit_travel(0.1, 8);  // or nothing would be kept out
+    wall.bounds.limit_travel(0.1, 8);  // otherwise nothing would be kept out
     (void)wall.judge();
     EXPECT_EQ(wall.criterion.is_late(0), angle > 0.2) << angle;
     wall.criterion.resize(1);
     (void)wall.judge();
-    EXPECT_FALSE(wall.criterion.is_late(0)) << "of a slave of which nothing is known";
+    EXPECT_FALSE(wall.criterion.is_late(0)) << "nothing is known about this slave";
   }
 }
 

@@ -23,8 +23,8 @@ using List = std::vector<Index>;
 
 constexpr double l0 = 1e-3, bound = 0.15 * l0;
 
-/// A pile with its broad-phase list, of which every particle may deviate by `bound` from a drift of `speed` (m per
-/// call) along the plate.
+/// A pile with its broad-phase list. Every particle may deviate by `bound` from a drift of `speed` (m per call) along
+/// the plate.
 struct Rows {
   bodies::Pile<double, 3> pile;
   bodies::Loops loops;
@@ -57,7 +57,7 @@ struct Rows {
     sleeping.resize(organs.slots());
     move((bound - 0.01 * l0) / 2 + 8 * speed);
     measure(false);
-    // All of it is drift from now on.
+    // From now on, all of this motion is drift.
     step = pile.x[0] - before;
     is_late = sleeping.put_to_sleep(source(), {8, 8}, loops);
   }
@@ -75,7 +75,7 @@ struct Rows {
   [[nodiscard]] hmps::detail::SleepingRows<double, 3, Ball>::Source source() const {
     return {organs, list, particles, density};
   }
-  /// `calls` calls after the check, with all at their drift but particle `i`, which is `by` m beside it.
+  /// Watches `calls` calls after the check, with all particles on their drift except `i`, which is `by` m off.
   bool watch(std::size_t calls, Index i, double by) {
     const auto home = pile.x;
     for (Point& x : pile.x) x += static_cast<double>(calls) / 8 * step;
@@ -128,7 +128,8 @@ TEST(SleepingRows, WakeByWhatTheirParticlesDeviate) {
       ASSERT_TRUE(now.watch(3, i, share * bound)) << gap;
       const std::set<Index> awake = now.awake();
       EXPECT_TRUE(std::includes(awake.begin(), awake.end(), last.begin(), last.end())) << gap << " " << share;
-      for (const Index slave : awake) EXPECT_TRUE(first.count(slave) || own.count(slave)) << "no row of others wakes";
+      for (const Index slave : awake)
+        EXPECT_TRUE(first.count(slave) || own.count(slave)) << "rows of other particles do not wake";
       if (awake != last) shares.insert(share);
       last = awake;
     }
@@ -218,7 +219,7 @@ TEST(SleepingRows, AreLateIfAWallHasTurnedFurther) {
   std::size_t late = 0;
   for (const double angle : {0.1, 0.5}) {
     Rows rows(1.3);
-    // Slaves that are long beside the wall, so that they sleep only because of its normal.
+    // Slaves that are long along the wall, so that they sleep only because of its normal.
     for (auto& F : rows.pile.F) F(0, 0) = 1.5;
     for (int k = 0; k < 8; ++k) rows.measure(false);
     EXPECT_FALSE(rows.sleeping.put_to_sleep(rows.source(), {8, 8}, rows.loops));
