@@ -24,17 +24,17 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Points that a body carries along, such as the vertices of the surface from which it was filled, for smooth pictures
-/// and for loads on the surface: interpolation of the particles' positions by moving least squares of first order
-/// (Lancaster and Salkauskas 1981; Belytschko, Lu and Gu 1994), with coefficients of the reference configuration,
+/// and for loads on the surface. Their positions y are interpolated from the particle positions x_k by first-order
+/// moving least squares (Lancaster and Salkauskas 1981; Belytschko, Lu and Gu 1994), with constant coefficients,
 ///
 ///     y = sum_k phi_k x_k,    phi_k = w_k / sum w (1 + (X_k - m) . C^-1 (Y - m))
 ///
-/// with the mean m and the covariance C, both weighted by w, of the particles X_k within a radius of the point's
-/// reference place Y; w = (1 - (|X - Y| / radius)^2)^2. The radius is two spacings, or more where particles are few: a
-/// spacing beyond the nearest one at least, and so large that the particles span space well. Since sum phi = 1 and
-/// sum phi X = Y, every affine motion of the particles is followed exactly, and where the motion has second derivatives
-/// of size c (1/m) the error is at most c / 2 sum |phi_k| |X_k - Y|^2. Points may lie outside of the particles, as
-/// surfaces do by about half a spacing.
+/// Here m and C are the mean and the covariance, both weighted by w, of the reference positions X_k of the particles
+/// within a radius of the point's reference position Y, and w = (1 - (|X - Y| / radius)^2)^2. The radius is two
+/// spacings, or more where particles are few: it exceeds the distance of the nearest one by at least a spacing, and is
+/// so large that the particles span space well. Since sum phi = 1 and sum phi X = Y, every affine motion of the
+/// particles is followed exactly, and where the motion has second derivatives of size c (1/m) the error is at most
+/// c / 2 sum |phi_k| |X_k - Y|^2. Points may lie outside the particles, as surfaces do by about half a spacing.
 ///
 ///     const CarriedSurface carried(vectors(reference), vectors(mesh.vertices), l0);
 ///     std::vector<Vector<double, 3>> vertices(mesh.vertices.size());
@@ -48,17 +48,17 @@ class CarriedSurface {
   /// A particle's share in a point.
   struct Share {
     Index particle;
-    double weight;  ///< phi, of which some may be negative
+    double weight;  ///< phi; may be negative
     double mean;    ///< w over the sum of w, for `mean`
   };
 
   /// @param reference  reference positions of the particles in m
-  /// @param points     places of the points in the reference configuration in m
+  /// @param points     reference positions of the points in m
   /// @param spacing    l0 in m
-  /// @param belongs    `belongs(i)`: whether particle i is of the body that carries the points; all are by default
+  /// @param belongs    `belongs(i)`: whether particle i belongs to the body that carries the points; by default all do
   /// Throws `InputError` for a spacing that is not positive or far above that of the particles, a set `belongs` of
-  /// another scene, positions that are not finite, no particles, and a point
-  /// that lies further than 8 spacings from particles that span space, with its place.
+  /// another scene, positions that are not finite, no particles, and a point that lies further than 8 spacings from
+  /// particles that span space, with its position.
   template <class T, class P, class Belongs = bool (*)(std::size_t), Executor E = Serial>
   CarriedSurface(
       const VectorView<T, D>& reference, const VectorView<P, D>& points, double spacing,
@@ -93,8 +93,8 @@ class CarriedSurface {
     return std::span(share_).subspan(offset_[p], offset_[p + 1] - offset_[p]);
   }
 
-  /// Writes the places in m of the points that go with the positions `x` of the particles. Throws `InputError` for
-  /// views of other sizes or of the same memory.
+  /// Writes the positions in m of the points to `places`, for the positions `x` (m) of the particles. Throws
+  /// `InputError` for views of the wrong size or of the same memory.
   template <class X, class P, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<P, D>& places, const E& execute = {}) const {
     require_size(x, particles_, "positions");
@@ -108,17 +108,17 @@ class CarriedSurface {
     });
   }
 
-  /// Writes to `values` what `quantity` of the particles is at the points, by the same coefficients: exact where it is
-  /// linear in space. Outside of the particles it is extrapolated and may pass the values of all of them, below zero
-  /// too: for a smooth picture of a stress see `mean`. Throws `InputError` for views of other sizes or of the same
-  /// memory.
+  /// Writes to `values` the `quantity` of the particles, interpolated to the points with the same coefficients: exact
+  /// where it is linear in space. Outside the particles it is extrapolated and may leave the range of their values,
+  /// even below zero: for a smooth picture of a stress use `mean`. Throws `InputError` for views of the wrong size or
+  /// of the same memory.
   template <class Q, class P, Executor E = Serial>
   void interpolate(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
     combine(&Share::weight, quantity, values, execute);
   }
-  /// Writes to `values` the mean of `quantity` over the particles around each point, weighted by w: never beyond the
-  /// values of the particles, and on a surface rather what there is about a spacing below it. Throws `InputError` for
-  /// views of other sizes or of the same memory.
+  /// Writes to `values` the mean of `quantity` over the particles around each point, weighted by w. It stays within the
+  /// range of their values, and on a surface it is rather the value about a spacing below. Throws `InputError` for
+  /// views of the wrong size or of the same memory.
   template <class Q, class P, Executor E = Serial>
   void mean(const ScalarView<Q>& quantity, const ScalarView<P>& values, const E& execute = {}) const {
     combine(&Share::mean, quantity, values, execute);
@@ -154,17 +154,17 @@ class CarriedSurface {
     throw InputError(
         detail::message("hmps: point ", p, " of a carried surface, at (", point.transpose(),
                         "), lies further than 8 spacings of ", spacing,
-                        " m from particles that span space; check that surface and particles are of one body in "
-                        "one unit: a wall of one layer carries no surface, nor does a part that supported_particles "
-                        "or `belongs` left out",
+                        " m from particles that span space; check that surface and particles belong to one body and "
+                        "are in the same unit: a wall of one layer carries no surface, nor does a part that "
+                        "supported_particles or `belongs` left out",
                         hint));
   }
 
-  /// The shares of the particles `found` within `radius`; false where the radius should be larger.
+  /// Writes the shares of the particles `found` within `radius`; returns false if the radius should be larger.
   template <class T>
   [[nodiscard]] static bool solve(const VectorView<T, D>& reference, const Vector<double, D>& point, double spacing,
                                   double radius, const std::vector<Index>& found, std::vector<Share>& shares) {
-    // All about the point, in spacings: the particles' mean and the covariance of their places.
+    // The mean and the covariance of the particles' positions relative to the point, in spacings.
     using Offset = Eigen::Matrix<double, D, 1>;
     const auto offset = [&](Index k) {
       Offset q;
@@ -187,11 +187,11 @@ class CarriedSurface {
     if (found.size() <= D || nearest + spacing > radius) return false;
     mean /= sum;
     covariance = (covariance / sum - mean * mean.transpose()).eval();
-    // How well they span space: the least spread about their mean.
+    // The least spread of the particles about their mean tells how well they span space.
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spread;
     spread.computeDirect(covariance, Eigen::EigenvaluesOnly);
     if (spread.eigenvalues()[0] < least_spread) return false;
-    // The plane of regression through the particles' values, read at the point.
+    // The value at the point of the regression plane through the particles' values.
     const Offset slope = covariance.inverse() * mean;
     for (Share& share : shares) {
       share.mean = share.weight / sum;
@@ -203,7 +203,7 @@ class CarriedSurface {
     const double w = 1 - std::min(s * s, 1.0);
     return w * w;
   }
-  /// Two layers of which one has a few per cent of the weight have 0.03.
+  /// Two layers, one of which has a few per cent of the weight, have a least spread of 0.03.
   static constexpr double least_spread = 0.03;
 
   std::size_t particles_;

@@ -24,10 +24,10 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What the progress hook of `fit_particles` is told after each iteration.
+/// What `fit_particles` passes to its progress hook after each iteration.
 struct FitProgress {
   int iteration;   ///< counted from 1
-  int iterations;  ///< that will be made
+  int iterations;  ///< in total
   double move;     ///< the longest move of a particle in this iteration in m
 };
 
@@ -36,49 +36,49 @@ struct NoFitProgress {
   constexpr void operator()(const FitProgress&) const {}
 };
 
-/// What `fit_particles` returns.
+/// The result of `fit_particles`.
 template <class S, int D>
 struct FittedParticles {
   std::vector<Vector<S, D>> positions;  ///< m
   std::vector<S> volumes;               ///< of each particle in m3 (2D: m2); their sum is the volume of the body
-  std::vector<int> layers;              ///< through the wall where each particle lies, 0 in bulk
-  std::vector<S> layer_spacings;        ///< their distance in m
-  int iterations = 0;                   ///< made
-  /// The largest distance in m of a particle of the outermost layer from half a layer inside the surface.
+  std::vector<int> layers;              ///< number of layers through the wall at each particle, 0 in bulk
+  std::vector<S> layer_spacings;        ///< distance of these layers in m
+  int iterations = 0;                   ///< number of iterations made
+  /// The largest deviation in m of a particle of the outermost layer from its depth of half a layer.
   double largest_distance = 0;
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };
 
-/// Particles that are fitted to the surface of a body, whichever way it lies: those of the outermost layer lie half a
-/// layer inside the surface, walls hold a whole number of layers, and all are about evenly spaced. They lie on no
-/// lattice: bond them with a `BondList`.
+/// Returns particles fitted to the surface of a body at any orientation: those of the outermost layer lie half a layer
+/// inside the surface, walls hold a whole number of layers, and all particles are about evenly spaced. They do not lie
+/// on a lattice: bond them with a `BondList`.
 ///
 ///     const auto fitted = fit_particles(shape, box, l0);
 ///     const BondList<double, 3> bonds(vectors(fitted.positions), {.spacing = l0});
 ///
-/// The body is the part of `shape` in `box`. Its thickness is that of the largest balls in it that touch opposite
-/// sides, up to eight spacings; what is thicker is bulk, where the inner layers fade. A wall of thickness t has
-/// n = t / spacing layers, rounded, and at least `least_layers`, which lie t / n apart: 0.75 to 1.25 spacings from two
-/// layers on, and less only where `least_layers` asks for it. Each particle stands for spacing^D whatever n: where
-/// layers are closer, particles of a layer are wider apart, so that a force that takes all volumes as equal is right
-/// in sum. Start: a particle wherever that volume of a layer has been passed along a space-filling curve. Then
-/// `iterations` of a repulsion within 1.6 spacings, with a falling step, within the layers. Then particles are removed
-/// until each has `least_support`. The volume of a particle is that of the samples of the body (4^D per spacing^D, more
-/// at the surface) that it is the nearest to.
+/// The body is the part of `shape` in `box`. Its thickness is the diameter of the largest balls in it that touch
+/// opposite sides, up to eight spacings; thicker parts are bulk, where the inner layers fade. A wall of thickness t has
+/// n = t / spacing layers, rounded, and at least `least_layers`, which lie t / n apart: from two layers on 0.75 to 1.25
+/// spacings, and less only where `least_layers` requires it. Each particle stands for spacing^D whatever n is: where
+/// layers are closer, the particles of a layer are further apart, so that a force that treats all volumes as equal is
+/// right in sum. The fit starts with a particle wherever a space-filling curve has passed that volume of a layer. Then
+/// `iterations` of a repulsion within 1.6 spacings, with a decreasing step, spread the particles within the layers.
+/// Finally particles are removed until each has `least_support`. The volume of a particle is that of the samples of the
+/// body (4^D per spacing^D, more at the surface) to which it is the nearest particle.
 ///
 /// The result is deterministic and does not depend on the executor. docs/fitted.md says what it is good for.
 ///
-/// @param shape     must be about the signed distance to a depth of a few spacings, above all near the surface: parts
-///                  that are united must overlap, since where they only touch there is a surface in between
-/// @param box       in m, tight or not; its faces cut
+/// @param shape     must be about the signed distance to a depth of a few spacings, above all near the surface; united
+///                  parts must overlap, because there is a surface between parts that only touch
+/// @param box       in m, tight or not; its faces cut the shape
 /// @param spacing   l0 in m
 /// @param progress  called as progress(FitProgress) after each iteration
 /// Throws `InputError` for a spacing that is not positive, a box that is empty, too large or not finite, bad settings,
-/// a shape that is NaN, with the position, a shape without volume in the box, and a part of the body that is thinner
-/// than `least_layers` layers of `thinnest_spacing` and reaches further than `longest_edge` beyond the particles, or
-/// hangs together with none, with the place; and a body of which no particle has enough support. Thin edges up to that
-/// length are left to the nearest particles.
+/// a shape that is NaN (with the position), a shape without volume in the box, a body in which no particle has enough
+/// support, and, with the position, a part of the body that is thinner than `least_layers` layers of `thinnest_spacing`
+/// and reaches further than `longest_edge` beyond the particles, or one that is connected to no particle. Thin edges up
+/// to that length are left to the nearest particles.
 template <class F, class S, int D, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
 requires Shape<F, S, D>
 [[nodiscard]] FittedParticles<S, D> fit_particles(const F& shape, const Box<S, D>& box, std::type_identity_t<S> spacing,
@@ -90,7 +90,7 @@ requires Shape<F, S, D>
   detail::FittedField<F, S, D> field(shape, box, l0, settings.least_layers);
   field.sample(execute);
   field.measure(execute);
-  const double thinnest = (1 - 1e-5) * settings.thinnest_spacing * l0;  // whatever the rounding of a thickness
+  const double thinnest = (1 - 1e-5) * settings.thinnest_spacing * l0;  // tolerates the rounding of a thickness
   detail::FittedCloud<decltype(field), D> cloud(field, thinnest);
   cloud.seed(execute);
   for (int k = 0; k < settings.iterations; ++k) {
@@ -120,7 +120,7 @@ requires Shape<F, S, D>
 ///
 ///     const auto fitted = fit_particles(read_surface("organ.stl", 1e-3), l0);
 ///
-/// Throws `InputError` also as `require_closed` does, and for a spacing that seems to be in another unit than the
+/// Also throws `InputError` as `require_closed` does, and for a spacing that seems to be in a different unit from the
 /// surface.
 template <class S, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
 [[nodiscard]] FittedParticles<S, 3> fit_particles(const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,

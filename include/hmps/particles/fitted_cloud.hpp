@@ -21,7 +21,8 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The particles of a `FittedField` on their way: spread over the layers by volume, then pushed apart within them.
+/// The particles of a `FittedField` while they are fitted: spread over the layers by volume, then pushed apart within
+/// them.
 template <class Field, int D>
 class FittedCloud {
  public:
@@ -31,8 +32,8 @@ class FittedCloud {
     Point place;
     Point moved = Point::Zero();  // in the last iteration
     Point push = Point::Zero();
-    Point safe = Point::Zero();  // where it was last in the body, and that thick enough
-    // What was seen at the last look, and where.
+    Point safe = Point::Zero();  // its last place in the body where the body was thick enough
+    // The results of the last `look`, and its place.
     Point seen = Point::Zero(), slope = Point::Zero();
     double depth = 0;
     Layering layers;
@@ -51,7 +52,7 @@ class FittedCloud {
     std::vector<Parts> parts(samples.size());
     execute(samples.size(), [&](std::size_t k) { parts[k] = parts_of(samples[k]); });
     const double share = std::pow(field_.spacing(), D);
-    std::array<std::array<double, std::size_t{most + 1}>, 2> passed;  // of either side, so that both get their share
+    std::array<std::array<double, std::size_t{most + 1}>, 2> passed;  // for each side, so that both get their share
     for (auto& of_side : passed) of_side.fill(0.5);
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const double first = static_cast<double>(parts[k].first);
@@ -65,10 +66,10 @@ class FittedCloud {
       }
     }
     require(particles_.size() < std::numeric_limits<Index>::max(), "hmps: the shape holds ", particles_.size(),
-            " particles, more than an index of 32 bits can name; give a larger spacing");
+            " particles, more than a 32-bit index can address; give a larger spacing");
   }
 
-  /// One iteration, at the share `left` of the way still to go. Returns the longest move in m.
+  /// One iteration, with the share `left` of all iterations still to go. Returns the longest move in m.
   template <class E>
   double iterate(int iteration, double left, const E& execute) {
     if (iteration % between_looks == 0) {
@@ -127,7 +128,7 @@ class FittedCloud {
  private:
   static constexpr int between_looks = 8;
   static constexpr double range = 1.6;        // of the repulsion in spacings
-  static constexpr double least_slope = 0.3;  // squared: less is on a middle surface
+  static constexpr double least_slope = 0.3;  // squared; a smaller one means a middle surface
 
   /// How a sample is shared by two layers, the second of which lies deeper.
   struct Parts {
@@ -136,8 +137,8 @@ class FittedCloud {
     unsigned char side = 0;
   };
 
-  /// A sample that reaches across the face between two layers belongs to both: else a wall along the grid of samples
-  /// would fill some layers with whole rows of samples too much.
+  /// A sample that reaches across the face between two layers belongs to both. Otherwise, in a wall along the grid of
+  /// samples, some layers would get whole rows of samples too many.
   [[nodiscard]] Parts parts_of(const Sample<D>& sample) const {
     const Layering here = field_.layering(sample.place);
     if (here.spacing < thinnest_) return {};
@@ -155,13 +156,13 @@ class FittedCloud {
     particle.place = particle.safe = place;
     look(particle);
     const double slope = particle.slope.squaredNorm();
-    // Behind the layers that are counted lies the bulk: particles stay where they are.
+    // Below the counted layers lies the bulk, where particles stay in place.
     if (layer < Field::most_layers && layer != particle.layers.layer(particle.depth) && slope > least_slope)
       particle.place += (particle.depth - particle.layers.level(layer)) / slope * particle.slope;
     return particle;
   }
 
-  /// Takes depth, slope and layers anew. A particle that got where the body is too thin goes back.
+  /// Evaluates depth, slope and layers again. A particle that has moved to where the body is too thin goes back.
   void look(Particle& p) const {
     p.layers = field_.layering(p.place);
     if (p.layers.spacing < thinnest_) go_back(p);
@@ -177,7 +178,7 @@ class FittedCloud {
     p.layers = field_.layering(p.place);
   }
 
-  /// Moves a particle to the middle of its layer, as far as the layer holds it, on the surface as seen last.
+  /// Moves a particle to the middle of its layer, as firmly as the layer holds it, by the surface of the last `look`.
   static void level(Particle& p) {
     const double slope = p.slope.squaredNorm();
     if (slope < least_slope) return;
@@ -210,7 +211,7 @@ class FittedCloud {
       if (share <= 0) continue;
       if (distance > 0)
         sum += share * share / distance * r;
-      else  // at one place: apart along the first axis
+      else  // coincident: apart along the first axis
         sum[0] += i < j ? -1 : 1;
     }
     particles_[i].push = sum;

@@ -22,7 +22,7 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// A part of the body: the volume of a cell of the sampling grid that lies inside, and its centroid.
+/// A sample of the body: the volume of a cell of the sampling grid that lies inside, and the centroid of that volume.
 template <int D>
 struct Sample {
   Vector<double, D> place;  // m
@@ -36,7 +36,7 @@ struct SurfacePoint {
   double least = 0;      // m, twice the radius of the largest ball inside that touches the surface here
   double thickness = 0;  // m; 0: that ball touches no opposite side but an edge
 
-  /// By a direction in which few surfaces lie.
+  /// 0 or 1, by whether the surface faces a fixed direction, to which few surfaces are parallel.
   [[nodiscard]] int side() const {
     double along = 0;
     for (int c = 0; c < D; ++c) along += (1 + 0.618 * c) * outward[c];
@@ -44,7 +44,7 @@ struct SurfacePoint {
   }
 };
 
-/// How the layers lie at a place: `count` of them across, `spacing` apart, or any number in what is thick.
+/// How the layers lie at a place: `count` of them across, `spacing` apart, or any number where the body is thick.
 struct Layering {
   double thickness = 0;  // m
   double spacing = 0;    // m
@@ -57,9 +57,9 @@ struct Layering {
     const int at = std::max(static_cast<int>(depth / spacing), 0);
     return thick ? at : std::min(at, (count - 1) / 2);
   }
-  /// The depth in the middle of a layer.
+  /// The depth of the middle of a layer.
   [[nodiscard]] double level(int layer) const { return (layer + 0.5) * spacing; }
-  /// How firmly particles are held there: the inner layers of what is thick fade into the bulk.
+  /// How firmly particles are held there: in thick parts the inner layers fade into the bulk.
   [[nodiscard]] double hold(int layer) const { return !thick || layer == 0 ? 1 : layer < 4 ? std::pow(0.5, layer) : 0; }
 };
 
@@ -71,8 +71,8 @@ class FittedField {
   using Point = Vector<double, D>;
   static constexpr int dimension = D;
   static constexpr int samples_per_spacing = 4;
-  static constexpr int most_layers = 8;     // across thin walls; what is thicker is bulk
-  static constexpr double steepest = 1.25;  // what the gradient of the distance may be before a cut cell is missed
+  static constexpr int most_layers = 8;     // across thin walls; thicker parts are bulk
+  static constexpr double steepest = 1.25;  // the largest gradient of the distance with which no cut cell is missed
 
   FittedField(const F& shape, const Box<S, D>& box, double spacing, int least_layers)
       : shape_(shape),
@@ -81,7 +81,8 @@ class FittedField {
         least_layers_(least_layers) {
     (void)lattice_sites<S, D>(box, static_cast<S>(spacing), box.lower);  // for its errors
     require((box.lower.array() < box.upper.array()).all(), "hmps: the box to fit particles in reaches from (",
-            box.lower.transpose(), ") to (", box.upper.transpose(), ") and has no volume; give an upper corner above");
+            box.lower.transpose(), ") to (", box.upper.transpose(),
+            ") and has no volume; give an upper corner above the lower one");
   }
 
   /// Signed distance in m, negative inside. Throws `InputError` where the shape is NaN.
@@ -93,7 +94,8 @@ class FittedField {
     return std::max(d, box_(x));
   }
 
-  /// Gradient of the distance by central differences over a fiftieth of a spacing: zero across a middle surface.
+  /// Gradient of the distance by central differences over a fiftieth of a spacing to either side: zero across a middle
+  /// surface.
   [[nodiscard]] Point gradient(const Point& x) const {
     const double reach = 0.02 * spacing_;
     Point g;
@@ -114,7 +116,7 @@ class FittedField {
   template <class E>
   void measure(const E& execute);
 
-  /// The layers at a place: of the mean thickness behind the points of the surface around it.
+  /// The layers at a place, from the mean thickness behind the points of the surface around it.
   [[nodiscard]] Layering layering(const Point& x) const {
     if (-(*this)(x) >= most_layers * spacing_ / 2) return {most_layers * spacing_, spacing_, most_layers, true};
     const double nearby = 1.5 * spacing_, farthest = 13 * spacing_;
@@ -123,7 +125,7 @@ class FittedField {
     for (double radius = nearby; radius < farthest && !(weight > 0); radius *= 2) {
       grid_.visit(x, radius, [&](Index k, double squared) {
         const SurfacePoint<D>& point = surface_[k];
-        if ((point.place - x).dot(point.outward) < 0) return;  // it faces x, as does another part across a gap
+        if ((point.place - x).dot(point.outward) < 0) return;  // it faces x: it belongs to another part, across a gap
         if (squared < closest) closest = squared, side = point.side();
         if (radius > nearby) least = std::max(least, point.least);
         if (!(point.thickness > 0)) return;
@@ -134,7 +136,7 @@ class FittedField {
       if (least >= most_layers * spacing_) break;
     }
     const double thickness = std::max(weight > 0 ? sum / weight : most_layers * spacing_, least);
-    // Walls of half a layer too much are rounded up all over, whatever the rounding of their thickness.
+    // Walls half a layer thicker than a whole number are rounded up throughout, whatever the rounding of the thickness.
     const int count = std::max(least_layers_, static_cast<int>(thickness / spacing_ + 0.501));
     return {thickness, thickness / count, count, thickness > (most_layers - 0.01) * spacing_, side};
   }
@@ -145,14 +147,14 @@ class FittedField {
  private:
   using Cell = std::array<std::int64_t, std::size_t{D}>;
   static constexpr std::size_t parts_per_axis = samples_per_spacing;
-  /// Of the parts of a cell.
+  /// The distances of the parts of a cell.
   using Distances = std::array<double, parts_per_axis * parts_per_axis*(D == 3 ? parts_per_axis : 1)>;
   struct Found {
     std::vector<Sample<D>> samples;
     std::vector<SurfacePoint<D>> surface;
   };
 
-  /// The bits of the numbers of a cell in turn: near in order means near in space.
+  /// Interleaves the bits of the indices of a cell: cells that are close in this order are close in space.
   [[nodiscard]] static std::uint64_t along_curve(const Cell& cell) {
     std::uint64_t code = 0;
     for (int bit = 0; bit < 63 / D; ++bit)
@@ -161,7 +163,8 @@ class FittedField {
     return code;
   }
 
-  /// The place of part `k` of `parts`^D of the cube around `centre`, parts a power of two, along the same curve.
+  /// The centre of part `k` of the cube around `centre`, which is divided into `parts`^D parts, numbered along the same
+  /// curve. `parts` is a power of two.
   [[nodiscard]] static Point part(const Point& centre, double edge, int parts, int k) {
     Point x = centre;
     for (int c = 0; c < D; ++c) {

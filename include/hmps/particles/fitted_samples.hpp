@@ -19,8 +19,9 @@
 /// How a `FittedField` samples the body and its surface, and measures its thickness.
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The part of a cell around `x` that the surface cuts, `d` from it, by 4^D points in 2^D blocks. A block is not
-/// looked at point by point where the distance in its middle shows that all of it lies inside, or outside.
+/// The part of a cut cell that lies inside the body, by 4^D points in 2^D blocks; `d` is the distance at its centre
+/// `x`. A block is not sampled point by point if the distance in its middle shows that it lies entirely inside or
+/// outside.
 template <class F, class S, int D>
 Sample<D> FittedField<F, S, D>::cut_cell(const Point& x, double d) const {
   constexpr int parts = samples_per_spacing, blocks = 1 << D, of_block = 1 << D;
@@ -28,7 +29,7 @@ Sample<D> FittedField<F, S, D>::cut_cell(const Point& x, double d) const {
   const double edge = spacing_ / parts, fine = edge / parts, total = of_block * blocks;
   const double diagonal = std::sqrt(static_cast<double>(D)) * edge;
   const auto covered = [&](double distance) { return std::clamp(0.5 - distance / fine, 0.0, 1.0); };
-  // What is covered wherever within `reach` (m) of a point at this distance, if that is all or nothing; else -1.
+  // The share that is covered anywhere within `reach` (m) of a point at this distance, if all or nothing; else -1.
   const auto covered_around = [&](double distance, double reach) {
     return std::abs(distance) > 0.5 * fine + steepest * reach ? covered(distance) : -1;
   };
@@ -69,7 +70,7 @@ void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const 
       if (cut.volume > 0) found.samples.push_back(cut);
     }
   }
-  // Not only where the sign changes: a face may lie between two cells.
+  // A change of sign is not required, because a face may lie between two cells.
   if (!inside || nearest > steepest * half_diagonal) return;
   if (const auto point = surface_at(at)) {
     found.surface.push_back(*point);
@@ -77,7 +78,7 @@ void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const 
   }
 }
 
-/// The point of the surface by a `place` close to it; none at edges, where the shape has no direction outwards.
+/// The point of the surface beside a `place` close to it; none at edges, where the shape has no outward direction.
 template <class F, class S, int D>
 std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point place) const {
   for (int step = 0; step < 4; ++step) {
@@ -91,8 +92,8 @@ std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point place) con
   return std::nullopt;
 }
 
-/// Both sides of a narrow gap may cross one cell, of which one point of the surface was found: each has a part of the
-/// body behind it. `distances` are those of the parts of the cell.
+/// Adds a point of the other side where both sides of a narrow gap cross one cell: only one point of the surface was
+/// found there, but each side has a part of the body behind it. `distances` are those of the parts of the cell.
 template <class F, class S, int D>
 void FittedField<F, S, D>::find_other_side_of_gap(const Point& centre, const Distances& distances, Found& found) const {
   constexpr int parts = samples_per_spacing;
@@ -156,7 +157,7 @@ void FittedField<F, S, D>::sample(const E& execute) {
 template <class F, class S, int D>
 template <class E>
 void FittedField<F, S, D>::measure(const E& execute) {
-  // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Where faces meet at more they are an edge.
+  // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Faces that meet at more form an edge.
   constexpr double opposite = -0.5;
   const double most = most_layers * spacing_, step = spacing_ / 8;
   execute(surface_.size(), [&](std::size_t k) {
@@ -171,7 +172,7 @@ void FittedField<F, S, D>::measure(const E& execute) {
         break;
       }
       point.least = 1.9 * (r - step);  // no ball is larger than the wall
-      // A little further, so that the difference is that of the other side.
+      // Slightly further in, so that the gradient is that of the other side.
       const Point other = point.place - (r + step / 2) * point.outward;
       const Point g = gradient(other);
       if (g.dot(point.outward) < opposite) point.thickness = std::min(most, r + step / 2 - (*this)(other));

@@ -14,18 +14,18 @@
 #include "hmps/particles/fitted_settings.hpp"
 #include "hmps/search/grid.hpp"
 
-/// The volumes of fitted particles, and what of the body has none.
+/// The volumes of fitted particles, and the search for parts of the body without particles.
 namespace hmps::inline HMPS_ABI::detail {
 
-/// A spacing below `spacing` at which a place where no particle lies would hold one.
+/// A spacing below `spacing` with which a place without particles would hold one.
 [[nodiscard]] inline double finer_spacing(const Layering& here, const FitSettings& settings, double spacing) {
   const double apart = here.thickness / here.count;
-  // Particles that are thick enough may have had too few neighbours.
+  // Where the body is thick enough for particles, they may have been removed for lack of neighbours.
   return std::min(apart < settings.thinnest_spacing * spacing ? apart / settings.thinnest_spacing : apart,
                   0.9 * spacing);
 }
 
-/// Whether the body ends on the way from a particle to a sample.
+/// Whether the straight line from a particle to a sample leaves the body.
 template <class Field, class Point>
 [[nodiscard]] bool lies_across_gap(const Field& field, const Point& particle, const Point& sample) {
   constexpr int looks = 16;
@@ -36,8 +36,8 @@ template <class Field, class Point>
   return false;
 }
 
-/// Throws `InputError` for a part of the body that holds no particle and hangs together with none: samples beside each
-/// other, about a spacing from their particles and more, of which even the nearest lies across a gap.
+/// Throws `InputError` for a part of the body that holds no particle and is connected to none: a cluster of samples
+/// about a spacing or more from their particles, of which even the closest one has its particle across a gap.
 template <class Field, class Cloud>
 void require_no_part_alone(const Field& field, const Cloud& cloud, const std::vector<Index>& owner,
                            const FitSettings& settings) {
@@ -81,7 +81,7 @@ void require_no_part_alone(const Field& field, const Cloud& cloud, const std::ve
   }
 }
 
-/// The volume of each particle: each sample belongs to the nearest one.
+/// The volume of each particle: each sample belongs to the nearest particle.
 template <class Field, class Cloud, class E>
 [[nodiscard]] std::vector<double> fitted_volumes(const Field& field, const Cloud& cloud, const FitSettings& settings,
                                                  const E& execute) {
@@ -110,8 +110,8 @@ template <class Field, class Cloud, class E>
     if (owner[k] == nobody) {
       const Layering here = field.layering(samples[k].place);
       require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (",
-              samples[k].place.transpose(), "), in a part of the body that is no wall; give a spacing below ", l0,
-              " m, or a longest_edge of some spacings");
+              samples[k].place.transpose(), "), in a part of the body that is not a wall; give a spacing below ", l0,
+              " m, or a longest_edge of a few spacings");
       throw InputError(message("hmps: the body is about ", here.thickness, " m thick at (",
                                samples[k].place.transpose(), "), too thin for ", here.count, " layers of spacing ", l0,
                                " m, and more than ", settings.longest_edge,

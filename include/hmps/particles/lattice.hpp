@@ -34,8 +34,8 @@ struct LatticeSites {
   }
 };
 
-/// The largest number of sites to sample: 2^33, about ten minutes. More indicates a spacing in millimetres or a box in
-/// micrometres.
+/// The largest number of sites to sample: 2^33, about ten minutes. More indicates that spacing and box are in different
+/// units.
 inline constexpr double most_sites = 8589934592.0;
 
 /// Bound in m, with a margin, for how far rounding to `S` can shift a site relative to a face of `box`: corners, origin
@@ -47,14 +47,14 @@ template <class S, int D>
   return 8 * static_cast<double>(std::numeric_limits<S>::epsilon()) * static_cast<double>(largest);
 }
 
-/// How far in m a site may lie from the surface and yet be taken to lie on it.
+/// The distance in m from the surface within which a site counts as lying on it.
 template <class S, int D>
 [[nodiscard]] double hair(const Box<S, D>& box, double spacing, const Vector<S, D>& origin) {
   return std::max(1e-9 * spacing, coordinate_rounding<S, D>(box, origin));
 }
 
-/// How far in m sites on the surface are moved to find on which side they are counted, by a hair in m: larger than the
-/// rounding, and different in each direction, so that sites on faces such as x = y fall on one side.
+/// The shift in m by which sites on the surface are moved to decide on which side they count; `reach` is the `hair` in
+/// m. It exceeds the rounding and differs in each direction, so that sites on faces such as x = y fall on one side.
 template <class S, int D>
 [[nodiscard]] Vector<S, D> aside(S reach) {
   constexpr S share[3] = {S(8), S(6.5), S(5.25)};
@@ -126,7 +126,7 @@ template <class S, int D, Executor E>
   std::vector<std::size_t> start(slabs.size() + 1, 0);
   for (std::size_t k = 0; k < slabs.size(); ++k) start[k + 1] = start[k] + slabs[k].size();
   require(start.back() < std::numeric_limits<Index>::max(), "hmps: the shape holds ", start.back(),
-          " particles, more than an index of 32 bits can name; give a larger spacing");
+          " particles, more than a 32-bit index can address; give a larger spacing");
   std::vector<Vector<S, D>> points(start.back());
   execute(slabs.size(), [&](std::size_t k) {
     std::copy(slabs[k].begin(), slabs[k].end(), points.begin() + static_cast<std::ptrdiff_t>(start[k]));
@@ -145,7 +145,7 @@ template <class S, int D, Executor E>
 /// Sites on the surface, up to rounding, count as inside on its lower sides: where the distance is below 1e-9 spacings,
 /// or a few units in the last place of the coordinates, the shape is evaluated slightly further along x, y and z. A box
 /// of n spacings therefore holds n sites per direction whatever the origin, also in float, and adjacent shapes have no
-/// gap. Shapes that return only inside or outside, without a distance, decide for themselves.
+/// gap. A shape that only tells inside from outside, without a distance, decides for itself where its surface belongs.
 ///
 /// `spacing` in metres; faces of the box need not lie on sites. Throws `InputError` for a spacing that is not positive,
 /// a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, and a shape that returns NaN, with the

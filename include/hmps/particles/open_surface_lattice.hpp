@@ -29,7 +29,7 @@ struct OpenLattice {
   std::size_t open_edges = 0;        ///< edges of one triangle
   std::size_t crowded_edges = 0;     ///< edges of three, five, ... triangles: flaps and inner walls
   std::size_t holes = 0;             ///< connected groups of open edges
-  double largest_hole = 0;           ///< diagonal in m of the box around the largest of them
+  double largest_hole = 0;           ///< diagonal in m of the bounding box of the largest hole
   /// Number of sites, inside or outside, with a winding number between 0.25 and 0.75 in magnitude. They lie near holes,
   /// where the surface does not determine what is inside.
   std::size_t doubtful_sites = 0;
@@ -37,7 +37,7 @@ struct OpenLattice {
 
 namespace detail {
 
-/// Writes number and size of the holes to `result`.
+/// Writes the number of holes and the size of the largest one to `result`.
 template <class S>
 void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges, OpenLattice<S>& result) {
   VertexGroups groups(mesh.vertices.size());
@@ -62,8 +62,8 @@ void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges
 }  // namespace detail
 
 /// Fills a surface that need not be closed with lattice sites, as `fill_lattice` does: a site is inside if its winding
-/// number exceeds one half (Jacobson et al. 2013). This closes each hole with a smooth cover, which matters the less
-/// the smaller the hole is. For a closed surface the points are those of `fill_lattice`. Check the other results: many
+/// number exceeds one half (Jacobson et al. 2013). This closes each hole with a smooth cover; the smaller the hole, the
+/// less its cover matters. For a closed surface the points are those of `fill_lattice`. Check the other results: many
 /// doubtful sites mean that the shape is a guess. Takes a few microseconds per site of the bounding box. Slabs run
 /// through `execute`; the result does not depend on it.
 ///
@@ -117,7 +117,7 @@ template <class S, Executor E = Serial>
   // A flat sheet has a winding number of one half on itself, so that rounding may classify its sites as inside.
   detail::require(std::any_of(sure.begin(), sure.end(), [](std::size_t count) { return count > 0; }),
                   "hmps: ", mesh.source, ", which is open at ", result.open_edges,
-                  " edges, surely encloses no lattice site of spacing ", spacing,
+                  " edges, does not clearly enclose any lattice site of spacing ", spacing,
                   " m (winding number 0.75 or more): it is too open, or the spacing is too large");
   return result;
 }

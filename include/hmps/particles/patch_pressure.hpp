@@ -23,7 +23,7 @@
 namespace hmps::inline HMPS_ABI {
 
 namespace detail {
-/// Throws `InputError` if `distance` (m) is larger than the cloud of `points`, as where it is in millimetres.
+/// Throws `InputError` if `distance` (m) is larger than the cloud of `points`, for example if given in millimetres.
 template <class T>
 void require_extent(const VectorView<T, 3>& points, double distance) {
   if (points.size() < 2) return;
@@ -33,16 +33,16 @@ void require_extent(const VectorView<T, 3>& points, double distance) {
     high = high.cwiseMax(points[i].template cast<double>());
   }
   require(distance <= (high - low).norm(), "hmps: particles within ", distance,
-          " m of a patch are asked for, but the particles themselves span ", (high - low).norm(),
-          " m only, so that all would be near; give a distance such as the spacing, in metres");
+          " m of a patch are asked for, but the particles themselves span only ", (high - low).norm(),
+          " m, so that all of them would qualify; give a distance such as the spacing, in metres");
 }
 }  // namespace detail
 
-/// The particles that lie within `distance` (m) of the patch: those to be held, say, by `hold`, by `ControlRegion` or,
-/// as `~particles_near(...)`, by the `moves` of `relax`. One layer, as README.md advises, is within 0.99 spacings of a
-/// face along the lattice; of a face at an angle to it that takes one to two layers, of which
-/// `surface_layers(...).outermost` are one. Throws `InputError` where there is none, for a distance that is not
-/// positive or larger than the body, and for a broken surface.
+/// The particles that lie within `distance` (m) of the patch, for example those to be held by `hold`, by
+/// `ControlRegion` or, as `~particles_near(...)`, by the `moves` of `relax`. At a face along the lattice, 0.99 spacings
+/// select one layer, as README.md advises; at a face at an angle to it they select one to two layers, of which
+/// `surface_layers(...).outermost` is one. Throws `InputError` if there is no such particle, for a distance that is not
+/// positive or is larger than the body, and for a broken surface.
 template <class T, class S, Executor E = Serial>
 [[nodiscard]] ParticleSet particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch, double distance,
                                          const E& execute = {}) {
@@ -63,14 +63,14 @@ template <class T, class S, Executor E = Serial>
 }
 
 /// A pressure on a patch of the surface of a body, as force densities on its particles. It follows the surface: it acts
-/// across each triangle as it lies now, on its present area.
+/// normal to each triangle in its current position, on its current area.
 ///
 /// The patch is refined to edges of a spacing and carried along (`CarriedSurface`, y = sum phi x). Each triangle with
-/// the area vector a gives -p a / 3 to each of its corners, and a corner hands its force on to the particles by the
-/// same phi, so that the work of the force on the particles is that of the pressure on the surface. Since sum phi = 1
-/// and sum phi x = y, force and torque are those of the pressure on the carried patch, to the rounding of the sums: the
-/// force is p times the area vector of the patch; on a whole closed surface force and torque are zero, and the power is
-/// -p dV/dt of the volume V in it. The patch itself lies where the body's surface is to the accuracy of
+/// the area vector a gives -p a / 3 to each of its corners, and a corner distributes its force to the particles by the
+/// same phi, so that the forces on the particles do the same work as the pressure on the surface. Since sum phi = 1 and
+/// sum phi x = y, force and torque are those of the pressure on the carried patch, up to the rounding of the sums: the
+/// force is -p times the area vector of the patch; on a whole closed surface force and torque are zero, and the power
+/// is -p dV/dt with the enclosed volume V. The carried patch follows the surface of the body to the accuracy of
 /// `CarriedSurface`.
 ///
 ///     const PatchPressure pressure(vectors(reference), patch, l0);
@@ -79,21 +79,21 @@ template <class T, class S, Executor E = Serial>
 class PatchPressure {
  public:
   /// @param reference  reference positions of the particles in m
-  /// @param patch      see `surface_patch`; a whole surface too
+  /// @param patch      see `surface_patch`; may be a whole surface
   /// @param spacing    l0 in m
-  /// @param belongs    `belongs(i)`: whether particle i is of the body; all are by default
+  /// @param belongs    `belongs(i)`: whether particle i belongs to the body; by default all do
   /// Throws as `CarriedSurface` and `refine` do, and `InputError` for a spacing far from that of the particles and a
-  /// patch that faces them.
+  /// patch whose normals point into the body.
   template <class T, class S, class Belongs = bool (*)(std::size_t)>
   PatchPressure(
       const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch, double spacing,
       const Belongs& belongs = [](std::size_t) { return true; })
       : PatchPressure(reference, Refined<S>{refined(reference, patch, spacing)}, spacing, belongs) {}
 
-  /// Adds to `f` (N/m3) the force densities of `pressure` (Pa, positive where it presses on the body) at the positions
-  /// `x` in m, for particles of the `volume` in m3, a number or a `ScalarView`. Runs in order, so that the result does
-  /// not depend on threads. Throws `InputError` for views of other sizes, a pressure that is not finite, a volume
-  /// that is not positive, and volumes that are not about the cube of the spacing on average.
+  /// Adds to `f` (N/m3) the force densities of `pressure` (Pa, positive if it presses on the body) at the positions `x`
+  /// in m. `volume` is that of a particle in m3, a number or a `ScalarView`. Runs serially, so that the result does not
+  /// depend on threads. Throws `InputError` for views of the wrong size, a pressure that is not finite, a volume that
+  /// is not positive, and volumes that are not about the cube of the spacing on average.
   template <class X, PerParticle Vol, class F>
   void add(const VectorView<X, 3>& x, const VectorView<F, 3>& f, double pressure, const Vol& volume) const {
     require_size(f, x.size(), "force densities");
@@ -106,9 +106,9 @@ class PatchPressure {
       const double mean = detail::mean_of(volume, x.size());
       const double share = mean / (spacing_ * spacing_ * spacing_);
       detail::require(share < most && share > 1 / most, "hmps: the `volume` of PatchPressure::add is ", mean,
-                      " m3 a particle, but the cube of the spacing of ", spacing_,
+                      " m3 per particle, but the cube of the spacing of ", spacing_,
                       " m that PatchPressure was made with has ", spacing_ * spacing_ * spacing_,
-                      " m3; give the volume of one particle, behind the pressure, and the spacing l0 when it is made");
+                      " m3; give the volume of one particle after the pressure, and l0 to the constructor");
     }
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());
@@ -121,8 +121,8 @@ class PatchPressure {
         f.add(share.particle, V(force[p] * (share.weight / static_cast<double>(at_particle(volume, share.particle)))));
   }
 
-  /// The sum of the area vectors of the patch in m2 as it lies at the positions `x`: the force of a pressure p is -p
-  /// times it.
+  /// The sum of the area vectors of the patch in m2 at the particle positions `x`. A pressure p exerts the force
+  /// -p times this vector.
   template <class X>
   [[nodiscard]] Vector<double, 3> area_at(const VectorView<X, 3>& x) const {
     const std::vector<V> corner = corners(x);
@@ -134,14 +134,14 @@ class PatchPressure {
  private:
   using V = Vector<double, 3>;
 
-  /// A patch that has edges of a spacing already.
+  /// A patch whose edges are already no longer than a spacing.
   template <class S>
   struct Refined {
     SurfaceMesh<S> mesh;
   };
 
-  /// `patch` with edges of a `spacing` (m), which is checked before: of one that is far too short it would make
-  /// millions of triangles.
+  /// `patch` refined to edges of a `spacing` (m). The spacing is checked first, because one that is far too short would
+  /// make millions of triangles.
   template <class T, class S>
   [[nodiscard]] static SurfaceMesh<S> refined(const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch,
                                               double spacing) {
@@ -160,7 +160,7 @@ class PatchPressure {
     require_outward(reference, fine.mesh, spacing);
   }
 
-  /// Throws `InputError` if, on the whole, the particles lie on that side of the patch to which its normals point.
+  /// Throws `InputError` if, on the whole, the particles lie on the side of the patch to which its normals point.
   template <class T, class S>
   void require_outward(const VectorView<T, 3>& reference, const SurfaceMesh<S>& mesh, double spacing) const {
     double ahead = 0, whole = 0;
@@ -177,10 +177,10 @@ class PatchPressure {
       ahead += across.dot(particles - middle);
       whole += across.norm();
     }
-    // On an outer surface they lie half a spacing and more behind it, on a middle surface neither ahead nor behind.
+    // The particles lie half a spacing or more behind an outer surface, and neither ahead of nor behind a middle one.
     detail::require(ahead <= 0.2 * spacing * whole, "hmps: the normals of ", mesh.source,
                     " point into the body, whose particles lie ", ahead / whole,
-                    " m ahead of it: a pressure would pull; swap two corners of each triangle");
+                    " m ahead of the patch: a pressure would pull; swap two corners of each triangle");
   }
 
   template <class X>

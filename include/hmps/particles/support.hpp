@@ -26,9 +26,9 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Settings of `find_weak` and `supported_particles`. The support of a particle is the smallest eigenvalue of A,
-/// \paper{12}, with the weights of \paper{8}, divided by the squared spacing: with the paper's radius 3.48 in a full
-/// cubic lattice, 1.74 at a flat surface, 0.99 at the corner of a cube. Weak support makes A^-1 and thus the stiffness
-/// large: the particle has a small stable step of its own and can explode at rest.
+/// \paper{12}, with the weights of \paper{8}, divided by the squared spacing: with the paper's radius it is 3.48 in a
+/// full cubic lattice, 1.74 at a flat surface, 0.99 at the corner of a cube. Weak support makes A^-1 and thus the
+/// stiffness large: the particle has a small stable step of its own and can explode at rest.
 struct SupportSettings {
   double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
   double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
@@ -69,7 +69,7 @@ class Supports {
         spacing_(settings.spacing) {
     validate(settings);
     using S = typename VectorView<T, D>::Scalar;
-    // As in `BondList`: rounding must not decide whether a lattice neighbour is one.
+    // As in `BondList`: rounding must not decide whether a lattice site counts as a neighbour.
     const double slack = 1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon());
     const FixedRadiusSearch<T, D> search(points);
     require_plausible_spacing(search, {settings.spacing, settings.radius_ratio}, static_cast<S>(radius_ * slack),
@@ -105,7 +105,7 @@ class Supports {
   NeighbourList list_;
 };
 
-/// Which of `n` particles are left when those of a support below `threshold` are removed until there are none.
+/// Which of `n` particles are left when particles with a support below `threshold` are removed until none remains.
 template <class Supports, class Keep>
 [[nodiscard]] std::vector<char> without_weak(const Supports& supports, std::size_t n, double threshold,
                                              const Keep& keep) {
@@ -166,7 +166,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 ///
 ///     for (const Index i : supported_particles(vectors(sites), {.spacing = l0})) reference.push_back(sites[i]);
 ///
-/// Of organs one or two particles thick, much may be removed. Particles for which `keep(i)` holds are never removed,
+/// Much of an organ one or two particles thick may be removed. Particles for which `keep(i)` holds are never removed,
 /// nor is the piece that contains them; apply `find_weak` to the result to see which of them are weak. `thicken` adds
 /// particles instead. Throws as `find_weak` does, and `InputError` if no particle would remain, with the apparent
 /// spacing of the cloud.
@@ -202,7 +202,7 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
   if (left.empty() && n > 0) {
     const std::string hint = detail::spacing_hint(points, settings.spacing, 0.15);
     throw InputError(detail::message(
-        "hmps: supported_particles finds none among ", n, " particles: each is weakly supported, or of a small piece",
+        "hmps: supported_particles finds none among ", n, " particles: each is weakly supported or in a small piece",
         hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));
   }
   return left;

@@ -56,11 +56,11 @@ struct PlaneGrid {
 /// sampled, or a spacing larger than the surface.
 template <class S>
 void require_plausible(const SurfaceMesh<S>& mesh, const Box<S, 3>& box, double spacing) {
-  if (!is_finite(spacing) || spacing <= 0) return;  // which `lattice_sites` says
+  if (!is_finite(spacing) || spacing <= 0) return;  // `lattice_sites` reports this
   const Vector<double, 3> extent = (box.upper - box.lower).template cast<double>();
   const double sites = (extent / spacing).array().max(1.0).prod();
   const double largest = extent.maxCoeff();
-  require(sites <= most_sites, "hmps: ", mesh.source, " is ", largest, " m large, which holds about ", sites,
+  require(sites <= most_sites, "hmps: ", mesh.source, " is ", largest, " m large and holds about ", sites,
           " lattice sites of spacing ", spacing,
           " m: give both in metres (a file in millimetres is read with a scale of 1e-3), or a larger spacing");
   require(spacing <= largest, "hmps: ", mesh.source, " is ", largest, " m large, less than one spacing of ", spacing,
@@ -118,7 +118,7 @@ template <class S>
 }  // namespace detail
 
 /// Fills the closed surface `mesh` with particles on a simple cubic lattice, in the order of `fill_lattice` for
-/// implicit shapes. Intersects columns along z with the triangles, in a time linear in triangles, crossings and sites.
+/// implicit shapes. Intersects columns along z with the triangles, in time linear in triangles, crossings and sites.
 /// A site is inside if its winding number is not zero: overlapping parts are united, and an inverted part within
 /// another is a hole. Sites on the lower sides of the surface are inside, so that a box of n spacings holds n sites per
 /// direction whatever the origin.

@@ -46,7 +46,7 @@ template <int D>
   return directions;
 }
 
-/// Whether one of `directions` makes an angle with all of `neighbours` (unit vectors) whose cosine is at most `limit`.
+/// Whether one of `directions` makes an angle with each of `neighbours` (unit vectors) whose cosine is at most `limit`.
 template <int D>
 [[nodiscard]] bool sees_out(const std::vector<Vector<double, D>>& neighbours,
                             const std::vector<Vector<double, D>>& directions, double limit) {
@@ -65,13 +65,13 @@ template <int D>
 ///     contact.add_organ({.name = "organ", .slaves = layers.outermost, .masters = layers.two_outermost});
 ///
 /// A particle belongs to the outermost layer if a cone with its tip at the particle and a half angle of 56 degrees
-/// contains no other particle within 1.8 spacings. At a flat surface such a cone opens to 90 degrees; at the foot of a
-/// step of a surface that is cut out of a lattice to 67 (60 where two steps meet in a corner). Below the layer the free
-/// cone is at most 55 degrees in a cubic lattice (under a surface across the diagonal of its cells), and inside 28. In
-/// a wall two particles thick every particle is therefore outermost, as in a sheet of one. A cone of less than 60
-/// degrees (2D: 57) may be missed, because a finite number of directions is tested. The second layer consists of the
-/// particles within 1.5 spacings of the outermost one: one layer along a lattice, two or more across its diagonals,
-/// where layers lie closer; about as far down in both cases, two spacings below the surface.
+/// contains no other particle within 1.8 spacings. At a flat surface such a cone opens to 90 degrees, and at the foot
+/// of a step of a surface cut out of a lattice to 67 (60 where two steps meet in a corner). Below the outermost layer
+/// the free cone is at most 55 degrees in a cubic lattice (under a surface across the diagonal of its cells), and
+/// inside the body 28. In a wall two particles thick every particle is therefore outermost, as in a sheet of one. A
+/// cone of less than 60 degrees (2D: 57) may be missed, because a finite number of directions is tested. The second
+/// layer consists of the particles within 1.5 spacings of the outermost layer: one layer along a lattice, and two or
+/// more across its diagonals, where layers lie closer. Both reach about equally deep, two spacings below the surface.
 ///
 /// Empty cavities have a surface too, and so do gaps in a cloud where neighbours are further apart than about 1.5
 /// spacings.
@@ -79,8 +79,8 @@ template <int D>
 /// @param points   reference positions in m
 /// @param spacing  l0 in m
 /// @param bonded   `bonded(i, j)`: whether two particles belong to one body; symmetric
-/// Throws `InputError` for a spacing that is not positive or does not fit the particles, as in another unit, a
-/// predicate that is not symmetric, positions that are not finite, and coincident particles.
+/// Throws `InputError` for a spacing that is not positive or does not fit the particles (such as one in another unit),
+/// a predicate that is not symmetric, positions that are not finite, and coincident particles.
 template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
 [[nodiscard]] SurfaceLayers surface_layers(const VectorView<T, D>& points, double spacing, const Bonded& bonded = {},
                                            const E& execute = {}) {
@@ -91,7 +91,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
   // Every direction lies within 3.5 degrees (2D: 1) of one of these.
   const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
   const double limit = std::cos(56 * std::numbers::pi / 180);
-  // Between the neighbours across the diagonal of a cell, at 1.73, and the next ones, at 2.
+  // 1.8 lies between the neighbours across the diagonal of a cell, at 1.73, and the next ones, at 2.
   const FixedRadiusSearch<T, D> search(points);
   detail::require_plausible_spacing(search, {spacing, 1.8}, static_cast<S>(1.8 * spacing));
   const NeighbourList nearby = find_neighbours(search, static_cast<S>(1.8 * spacing), execute);
@@ -117,7 +117,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
       for (std::size_t i = 0; i < points.size() && !any; ++i)
         for_each(i, [&](Index, const Vector<double, D>&) { any = true; });
       detail::require(any, "hmps: `bonded` of surface_layers holds for no two of the ", points.size(),
-                      " particles, so that all are outermost; let it hold for particles of one body");
+                      " particles, so that all are outermost; it must hold for particles of one body");
     }
   std::vector<char> second(points.size(), 0);
   execute(points.size(), [&](std::size_t i) {

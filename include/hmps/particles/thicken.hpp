@@ -61,7 +61,7 @@ class SiteMap {
       site[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(whole);
     }
     require(add(site), "hmps: particle ", i, " at (", x.transpose(),
-            ") shares its lattice site with another; remove one of them");
+            ") shares its lattice site with another particle; remove one of them");
   }
   bool add(const Site& site) {
     if (!index_.emplace(key(site), sites_.size()).second) return false;
@@ -76,7 +76,7 @@ class SiteMap {
     return site;
   }
 
-  /// A in units of the squared spacing at `site`.
+  /// The shape tensor at `site`, in squared spacings.
   [[nodiscard]] ShapeTensor<D> shape(const Site& site) const {
     ShapeTensor<D> result;
     for (const Site& offset : offsets_) {
@@ -110,9 +110,9 @@ class SiteMap {
 /// neighbouring site along an axis that strengthens its weakest direction most; of equal sites, the one with more
 /// neighbours.
 ///
-/// Sites for which `allowed(x)` does not hold stay free, such as a gap to another organ. Returns the new positions; use
-/// `find_weak` to see what is still weak. Throws `InputError` for settings out of range and points that are not on one
-/// lattice of the spacing.
+/// Sites where `allowed(x)` does not hold stay free, for example in a gap to another organ. Returns the new positions;
+/// use `find_weak` to see which particles are still weak. Throws `InputError` for settings out of range and points that
+/// are not on one lattice of the spacing.
 template <class T, int D, class Allowed = AllowEverywhere>
 [[nodiscard]] std::vector<Vector<typename VectorView<T, D>::Scalar, D>> thicken(const VectorView<T, D>& points,
                                                                                 const SupportSettings& settings,
@@ -123,8 +123,8 @@ template <class T, int D, class Allowed = AllowEverywhere>
   detail::validate(settings);
   detail::require(settings.radius_ratio < 16, "hmps: the effective radius is ", settings.radius_ratio,
                   " spacings; on a lattice it must be below 16");
-  detail::require(passes >= 0, "hmps: particles are to be thickened in ", passes,
-                  " passes; give a positive number (4 is the default)");
+  detail::require(passes >= 0, "hmps: the number of passes of thicken is ", passes,
+                  "; it must not be negative (4 is the default)");
   require_finite(points, "the position");
   detail::require_spacing_of(points, settings.spacing, "thicken", 1.9);
   std::vector<Vector<S, D>> added;

@@ -55,7 +55,7 @@ template <class A, class B, class... More>
 /// Union of a list of shapes of one type, such as `Ball`. Throws `InputError` for an empty list.
 template <class A>
 [[nodiscard]] auto unite_all(std::vector<A> shapes) {
-  detail::require(!shapes.empty(), "hmps: a union is to be made of no shapes; give at least one");
+  detail::require(!shapes.empty(), "hmps: unite_all was given no shapes; give at least one");
   return detail::Combined{[shapes = std::move(shapes)](const auto& x) {
     auto least = shapes.front()(x);
     for (std::size_t k = 1; k < shapes.size(); ++k) least = std::min(least, shapes[k](x));
@@ -110,7 +110,7 @@ template <class A, class S>
 }
 
 /// A sheet of the given thickness with the surface of `a` as its middle surface. Throws `InputError` for a negative
-/// one.
+/// thickness.
 template <class A, class S>
 [[nodiscard]] auto shell(A a, S thickness) {
   return layer(std::move(a), -thickness / 2, thickness / 2);
@@ -140,7 +140,7 @@ template <class A, class B, class S>
   return complement(smooth_unite(complement(std::move(a)), std::move(b), radius));
 }
 
-/// The shape moved by `by` metres. Exact if the shape is. Throws `InputError` unless they are finite.
+/// The shape moved by `by` metres. Exact if the shape is. Throws `InputError` unless `by` is finite.
 template <class A, class S, int D>
 [[nodiscard]] auto translated(A a, const Vector<S, D>& by) {
   detail::require(detail::all_finite(by), "hmps: a shape is moved by (", by.transpose(), ") m; give finite metres");
@@ -148,13 +148,13 @@ template <class A, class S, int D>
 }
 
 /// The shape turned by the rotation matrix `rotation` about the point `pivot`. Exact if the shape
-/// is. Throws `InputError` for a matrix that is not orthogonal or mirrors: use `warped` to scale or shear.
+/// is. Throws `InputError` for a matrix that is not orthogonal or is a reflection: use `warped` to scale or shear.
 template <class A, class S, int D>
 [[nodiscard]] auto rotated(A a, const Matrix<S, D>& rotation, const Vector<S, D>& pivot) {
   const Matrix<S, D> excess = rotation * rotation.transpose() - Matrix<S, D>::Identity();
   detail::require(detail::all_finite(excess) && excess.norm() < S(1e-3) && determinant(rotation) > S(0),
                   "hmps: a shape is rotated by the matrix (by columns) ", rotation,
-                  ", which is not orthogonal or mirrors; give a rotation, or use mirrored or warped");
+                  ", which is not orthogonal or is a reflection; give a rotation, or use mirrored or warped");
   return detail::Combined{[a = std::move(a), rotation, pivot](const auto& x) {
     return a(Vector<S, D>(pivot + rotation.transpose() * (x - pivot)));
   }};

@@ -14,19 +14,20 @@ namespace hmps::inline HMPS_ABI {
 /// A shape in `D` dimensions: `shape(x)` with `x` a `Vector<S, D>` in metres is negative inside, positive outside, and
 /// approximates the signed distance to the surface in metres. Models: the primitives and combinators of this folder,
 /// any lambda. Shapes are values that capture by value, so that a composed shape compiles to straight code.
-/// A primitive of a negative size is NaN everywhere, which what samples shapes refuses.
+/// A primitive of a negative size is NaN everywhere; functions that sample shapes refuse NaN.
 ///
 /// *Exact* shapes return the Euclidean distance everywhere. *First-order* shapes return f / |grad f| of an implicit
-/// function f: the zero surface is exact, the distance near it is correct to first order, and far away only the sign
-/// is. `offset`, `layer` and `shell` of a first-order shape are therefore accurate only for offsets small compared with
-/// the radius of curvature.
+/// function f: the zero surface is exact, the distance near it is correct to first order, and far away only the sign is
+/// correct. `offset`, `layer` and `shell` of a first-order shape are therefore accurate only for offsets small compared
+/// with the radius of curvature.
 template <class F, class S, int D>
 concept Shape = requires(const F& shape, const Vector<S, D>& x) {
   { shape(x) } -> std::convertible_to<S>;
 };
 
 namespace detail {
-/// `distance`, or NaN, which all that samples shapes refuses, for a shape that does not exist: of a negative size.
+/// `distance`, or NaN for a shape that does not exist because its size is negative. Functions that sample shapes refuse
+/// NaN.
 template <class S>
 [[nodiscard]] S distance_if(bool exists, S distance) {
   return exists ? distance : std::numeric_limits<S>::quiet_NaN();
@@ -112,7 +113,7 @@ struct RoundCone {
     if (length <= std::abs(fall))
       return radius_from > radius_to ? (x - from).norm() - radius_from : (x - to).norm() - radius_to;
     // Works in the half plane of the axis, in coordinates (axial, radial) from the first centre. `sine` is that of half
-    // the opening angle; the foot of the perpendicular on the mantle selects the piece.
+    // the opening angle; the foot of the perpendicular on the lateral surface selects the piece.
     const Vector<S, D> arm = x - from;
     const S axial = arm.dot(along) / length;
     const S radial = std::sqrt(std::max(arm.squaredNorm() - axial * axial, S(0)));
@@ -143,7 +144,7 @@ struct Cylinder {
   }
 };
 
-/// Torus around the axis z (turn it with `rotated`). Exact.
+/// Torus around the z axis (turn it with `rotated`). Exact.
 template <class S>
 struct Torus {
   Vector<S, 3> centre = Vector<S, 3>::Zero();  ///< m

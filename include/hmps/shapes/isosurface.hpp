@@ -22,8 +22,8 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// Makes the surface where a shape is zero, from one layer of cubes to the next. Each cube is divided into six
-/// tetrahedra around its diagonal (Kuhn 1960), in which the surface has one form for each set of corners inside.
+/// Makes the zero surface of a shape, from one layer of cubes to the next. Each cube is divided into six tetrahedra
+/// around its diagonal (Kuhn 1960). In a tetrahedron, the set of corners that lie inside determines the triangles.
 template <class F, class S>
 class IsosurfaceMaker {
  public:
@@ -38,7 +38,7 @@ class IsosurfaceMaker {
     for (int c = 0; c < 3; ++c) {
       const double cells = std::ceil(static_cast<double>((box.upper[c] - box.lower[c]) / cell)) + 1;
       require(cells < most_cells, "hmps: ", cells, " cells of ", cell,
-              " m along an axis of an isosurface are too many; give wider ones, or a box in metres");
+              " m along an axis of an isosurface are too many; give wider cells, or a box in metres");
       nodes_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(cells) + 1;
     }
     const std::size_t plane = nodes_[0] * nodes_[1];
@@ -60,7 +60,7 @@ class IsosurfaceMaker {
     }
     require(!mesh_.triangles.empty(), "hmps: the shape has no surface in the box from (", box_.lower.transpose(),
             ") to (", box_.upper.transpose(), ") that cells of ", cell_,
-            " m show; give a shape that is negative inside, a box around it in metres, or smaller cells");
+            " m resolve; give a shape that is negative inside, a box around it in metres, or smaller cells");
     mesh_.source = "the isosurface";
     return std::move(mesh_);
   }
@@ -72,7 +72,7 @@ class IsosurfaceMaker {
   static constexpr std::size_t edge_kinds = 7;  // the axes, and the diagonals of faces and of the cube
   static constexpr double most_cells = 5000;    // along an axis: a plane of them takes 1.6 GB
 
-  /// Half a cell outside the box, so that its faces close the surface.
+  /// The outermost nodes lie half a cell or more outside the box, so that its faces close the surface.
   [[nodiscard]] Point place(const Node& node) const {
     Point x;
     for (int c = 0; c < 3; ++c)
@@ -111,7 +111,7 @@ class IsosurfaceMaker {
   }
 
   void cut_tetrahedron(const Node& cube, std::array<std::size_t, 4> corners, std::size_t inside) {
-    // The corners inside first, by swaps of neighbours, each of which turns the tetrahedron inside out.
+    // Moves the corners inside to the front by swaps of neighbours, each of which turns the tetrahedron inside out.
     bool reversed = false;
     int count = 0;
     for (const std::size_t c : corners) count += static_cast<int>(inside >> c & 1);
@@ -135,14 +135,14 @@ class IsosurfaceMaker {
     if (count == 3) add(edge(a, d), edge(b, d), edge(c, d));
   }
 
-  /// The vertex on the edge between two corners of a cube, one of which has all axes of the other.
+  /// The vertex on the edge between two corners of a cube. One corner must have all bits of the other.
   [[nodiscard]] Index vertex(const Node& cube, std::size_t one, std::size_t other) {
     const std::size_t from = one & other, kind = (one | other) - from;
     const Node node{cube[0] + (from & 1), cube[1] + (from >> 1 & 1), cube[2] + (from >> 2)};
     Index& known = (from >> 2 ? upper_ : lower_)[edge_kinds * in_plane(node) + kind - 1];
     if (known == nobody) {
-      require(mesh_.vertices.size() + cut_.size() < nobody, "hmps: the isosurface has more vertices than an index of ",
-              "32 bits can name; give wider cells");
+      require(mesh_.vertices.size() + cut_.size() < nobody, "hmps: the isosurface has more vertices than a 32-bit ",
+              "index can address; give wider cells");
       known = static_cast<Index>(mesh_.vertices.size() + cut_.size());
       const Node end{node[0] + (kind & 1), node[1] + (kind >> 1 & 1), node[2] + (kind >> 2)};
       cut_.emplace_back(place(node), place(end));
@@ -150,7 +150,7 @@ class IsosurfaceMaker {
     return known;
   }
 
-  /// Places the vertices of a layer of cubes where the shape is zero, by halving.
+  /// Places the vertices of a layer of cubes where the shape is zero, by bisection.
   template <class E>
   void place_vertices(const E& execute) {
     constexpr int halvings = 12;
@@ -182,23 +182,23 @@ class IsosurfaceMaker {
 
 /// The closed surface of the part of a shape that lies in a box, by marching tetrahedra (Doi and Koide 1991).
 ///
-/// Only the sign of the shape counts, so that this makes a distance of any implicit function, of united shapes, and of
-/// shapes whose distance costs much:
+/// Only the sign of the shape counts, so that the surface turns any implicit function, united shapes, and shapes whose
+/// distance is expensive into a distance:
 ///
 ///     const MeshDistance<double> body(isosurface(shape, box, l0 / 4));
 ///     const auto fitted = fit_particles(body, body.box(), l0);
 ///
-/// Vertices lie on the surface of the shape to a four-thousandth of a cell. Between them it is flat: right-angled edges
-/// are bevelled by 0.17 cells in the mean and up to 0.6, corners up to 0.7, and a ball of radius R is cut short by 0.08
-/// cell^2 / R in the mean and up to 0.4. What is thinner than a cell may be missed.
+/// Vertices lie on the surface of the shape to a four-thousandth of a cell. Between them the isosurface is flat:
+/// right-angled edges are bevelled by 0.17 cells on average and 0.6 at most, corners by 0.7 at most, and a ball of
+/// radius R is cut short by 0.08 cell^2 / R on average and 0.4 at most. Parts thinner than a cell may be missed.
 ///
 /// The result is deterministic and does not depend on the executor.
 ///
 /// @param shape  negative inside; called from several threads if `execute` has them
-/// @param box    in m; its faces cut, and close the surface where they do
+/// @param box    in m; its faces cut the shape, and close the surface there
 /// @param cell   width of the cells in m
 /// Throws `InputError` for a box without volume, a width that is not positive, more than 5000 cells along an axis, a
-/// shape that is NaN, with the position, and one without surface in the box.
+/// shape that is NaN (with the position), and a shape without surface in the box.
 template <class F, class S, Executor E = Serial>
 requires Shape<F, S, 3>
 [[nodiscard]] SurfaceMesh<S> isosurface(const F& shape, const Box<S, 3>& box, std::type_identity_t<S> cell,

@@ -10,7 +10,7 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// A point of a triangle, and what it belongs to.
+/// A point of a triangle, and the part of the triangle to which it belongs.
 template <class S>
 struct TrianglePoint {
   Vector<S, 3> place;
@@ -32,8 +32,8 @@ template <class S>
   return nearest;
 }
 
-/// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5). Corners may lie in one place
-/// or in one line.
+/// The point of the triangle a, b, c that is nearest to `x` (Ericson 2005, section 5.1.5). Corners may coincide or be
+/// collinear.
 template <class S>
 [[nodiscard]] TrianglePoint<S> nearest_on_triangle(const std::array<Vector<S, 3>, 3>& corners, const Vector<S, 3>& x) {
   using V = Vector<S, 3>;
@@ -44,14 +44,15 @@ template <class S>
   if (d3 >= 0 && d4 <= d3) return {b, 1};
   if (d6 >= 0 && d5 <= d6) return {c, 2};
   const S vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  // An edge of no length would give 0 / 0; its point lies on the other two.
+  // An edge without length would give 0 / 0; its point lies on the other two edges.
   if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 - d3 > 0) return {a + d1 / (d1 - d3) * ab, 3};
   if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 - d6 > 0) return {a + d2 / (d2 - d6) * ac, 5};
-  const S bc = (d4 - d3) + (d5 - d6);  // the square of that edge
+  const S bc = (d4 - d3) + (d5 - d6);  // the squared length of that edge
   if (va <= 0 && d4 >= d3 && d5 >= d6 && bc > 0) return {b + (d4 - d3) / bc * (c - b), 4};
   const S sum = va + vb + vc;  // the square of twice the area
   const V within = a + vb / sum * ab + vc / sum * ac;
-  // With edges of length L its rounding is about 1e-16 L^3 |x - a|; where it is lost in that, an edge may be nearer.
+  // With edges of length L the rounding of `sum` is about 1e-16 L^3 |x - a|. If `sum` is lost in it, an edge may be
+  // nearer.
   const S size = ab.squaredNorm() + ac.squaredNorm();
   if (sum * sum > 1e-26 * size * size * size * (size + ax.squaredNorm())) return {within, 6};
   const TrianglePoint<S> edge = nearest_on_edges(corners, x);

@@ -76,13 +76,13 @@ class ObjParser {
     for (std::string_view corner = take_word(line); !corner.empty(); corner = take_word(line)) {
       std::int64_t number{};
       if (!parse_number(corner.substr(0, corner.find('/')), number))
-        place_.fail("'", printable(corner), "' is no corner of a face");
+        place_.fail("'", printable(corner), "' is not a corner of a face");
       const auto count = static_cast<std::int64_t>(mesh_.vertices.size());
       // Positive indices count from the first vertex, negative ones back from the last vertex read so far.
       if (number == 0 || number < -count)
-        place_.fail("a face names vertex ", number, " but ", count, " vertices stand before it");
+        place_.fail("a face names vertex ", number, " but ", count, " vertices precede it");
       if (number >= static_cast<std::int64_t>(std::numeric_limits<Index>::max()))
-        place_.fail("a face names vertex ", number, ", more than an index of 32 bits can name");
+        place_.fail("a face names vertex ", number, ", more than a 32-bit index can address");
       if (number > count) ahead_.push_back({number, place_.line});
       polygon_.push_back(static_cast<Index>(number > 0 ? number - 1 : count + number));
     }

@@ -14,11 +14,11 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The normals of the faces, edges and corners of a surface by which a point lies inside or outside: of an edge the sum
-/// of those of its two faces, of a corner their sum weighted by the angles of its faces (Baerentzen and Aanaes 2005).
-/// With p the nearest point of the surface, (x - p) . normal is positive where x is outside. That is exact for a
-/// closed, oriented surface that does not meet itself, and so for an `isosurface`. Normals are not of unit length; they
-/// are zero where all faces around have no area.
+/// The normals of the faces, edges and corners of a surface that tell whether a point lies inside or outside. The
+/// normal of an edge is the sum of those of its two faces, that of a corner the sum of those of its faces weighted by
+/// their angles (Baerentzen and Aanaes 2005). With p the nearest point of the surface, (x - p) . normal is positive if
+/// x is outside. This is exact for a closed, oriented surface that does not meet itself, such as an `isosurface`.
+/// Normals are not of unit length; they are zero where none of the surrounding faces has an area.
 template <class S>
 class Pseudonormals {
   using V = Vector<S, 3>;
@@ -49,7 +49,7 @@ class Pseudonormals {
   }
 
  private:
-  /// Pairs the triangles that share an edge. An edge of one triangle alone counts as that of two.
+  /// Pairs the triangles that share an edge. At an edge of only one triangle, the triangle is paired with itself.
   void find_neighbours() {
     std::vector<std::tuple<Index, Index, std::size_t, std::size_t>> edges;
     edges.reserve(3 * corners_.size());

@@ -41,19 +41,19 @@ class Redistanced {
   std::shared_ptr<const Surface> surface_;
 };
 
-/// The part of any shape that lies in a box, as one that is the signed distance: inside united parts too, where the
-/// nearest surface may be that of another part, and for implicit functions that are none. What asks for a distance thus
-/// takes any shape:
+/// The part of any shape that lies in a box, as a shape that is a signed distance: also inside united parts, where the
+/// nearest surface may be that of another part, and for implicit functions that are not distances. Functions that need
+/// a distance thus take any shape:
 ///
 ///     const auto body = redistanced(shape, box, l0 / 4);
 ///     const auto fitted = fit_particles(body, box, l0);
 ///
-/// It is the distance to the shape's `isosurface`, inside and outside as well, whose limits and errors it has: parts of
-/// the shape thinner than a cell may be lost. The shape is evaluated only while this is made; afterwards each place
-/// costs a search in a tree of triangles.
+/// The result is the distance to the `isosurface` of the shape, both inside and outside, and has the limits and errors
+/// of that surface: parts of the shape thinner than a cell may be lost. The shape is evaluated only while the result is
+/// made; afterwards each evaluation costs a search in a tree of triangles.
 ///
 /// @param shape  negative inside
-/// @param box    in m; its faces cut
+/// @param box    in m; its faces cut the shape
 /// @param cell   width of the cells of the isosurface in m
 template <class F, class S, Executor E = Serial>
 requires Shape<F, S, 3>

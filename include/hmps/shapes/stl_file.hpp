@@ -44,19 +44,19 @@ inline constexpr std::size_t stl_record = 50;
 
 /// The number of triangles in the binary STL file `bytes`. Throws `InputError` if it does not match the header.
 [[nodiscard]] inline std::size_t count_binary_stl(std::string_view bytes, const std::string& source) {
-  require(bytes.size() >= stl_header, "hmps: ", source, " is no STL file: it has ", bytes.size(),
+  require(bytes.size() >= stl_header, "hmps: ", source, " is not an STL file: it has ", bytes.size(),
           " bytes and does not begin with 'solid'");
   std::uint32_t count{};
   std::memcpy(&count, bytes.data() + 80, sizeof count);
   const std::size_t size = stl_header + stl_record * count;
   require(size <= bytes.size(), "hmps: ", source, " ends at byte ", bytes.size(), " but announces ", count,
-          " triangles in ", size, " bytes; it is cut off or no STL file");
+          " triangles in ", size, " bytes; it is cut off or not an STL file");
   // Some programs append a few bytes or pad with zeros; a whole extra triangle is an error.
   const std::string_view rest = bytes.substr(size);
   require(rest.size() < stl_record || rest.find_first_not_of('\0') == std::string_view::npos, "hmps: ", source,
           " announces ", count, " triangles, which end at byte ", size, ", but ", rest.size(),
           " bytes follow, enough for ", rest.size() / stl_record,
-          " more; the count or the file is damaged: write it anew");
+          " more; the count or the file is damaged: write the file again");
   return count;
 }
 
@@ -106,7 +106,7 @@ void parse_ascii_stl(std::string_view text, const SurfaceFileSettings& settings,
       if (in_facet) place.fail("'", word, "' within a facet");
       in_solid = word == "solid";
     } else if (!word.empty() && word != "outer" && word != "endloop") {
-      place.fail("'", printable(word), "' is no word of an STL file");
+      place.fail("'", printable(word), "' is not a keyword of an STL file");
     }
   }
   if (in_facet) place.fail("the file ends within a facet; it is cut off");

@@ -22,11 +22,11 @@ using Triangles = std::vector<std::array<Index, 3>>;
 struct EdgeUse {
   Index low, high;  ///< its vertices
   int forward, backward;
-  Index across;  ///< the third corners of its triangles, combined by exclusive or: 0 for two that are the same corner
+  Index across;  ///< exclusive or of the third corners of its triangles: 0 if there are two and they are the same
 
   [[nodiscard]] int uses() const { return forward + backward; }
   [[nodiscard]] bool balanced() const { return forward == backward; }
-  /// Whether its triangles are one in both orientations.
+  /// Whether its two triangles are the same one in both orientations.
   [[nodiscard]] bool folded() const { return forward == 1 && backward == 1 && across == 0; }
 };
 

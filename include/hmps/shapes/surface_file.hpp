@@ -12,8 +12,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Reads a surface from an .stl or .obj file, by the extension; see `read_stl` and `read_obj`. An open one, in
-/// millimetres:
+/// Reads a surface from an .stl or .obj file, as its extension says; see `read_stl` and `read_obj`. For an open surface
+/// in millimetres:
 ///
 ///     const auto mesh = read_surface("organ.stl", {.scale = 1e-3, .closed = false});
 template <class S = double>
@@ -27,7 +27,7 @@ template <class S = double>
                       ".off and .3mf, ParaView reads .vtp and .vtk"));
 }
 
-/// Reads a closed surface from an .stl or .obj file, by the extension.
+/// Reads a closed surface from an .stl or .obj file, as its extension says.
 template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_surface(const std::string& path, double scale = 1, double tolerance = 1e-6) {
   return read_surface<S>(path, SurfaceFileSettings{scale, tolerance});

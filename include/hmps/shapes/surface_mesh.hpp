@@ -45,8 +45,8 @@ template <class S>
   return box;
 }
 
-/// The area vector of a triangle with corners a, b, c: its area in m2 along its normal, which points to where it is
-/// seen counter-clockwise.
+/// The area vector of a triangle with corners a, b, c: its area in m2 along its normal, which points to the side from
+/// which the corners are counter-clockwise.
 [[nodiscard]] inline Vector<double, 3> area_vector(const Vector<double, 3>& a, const Vector<double, 3>& b,
                                                    const Vector<double, 3>& c) {
   return (b - a).cross(c - a) / 2;
@@ -54,7 +54,7 @@ template <class S>
 
 namespace detail {
 
-/// Throws `InputError` if triangle `k` names a vertex that is not there.
+/// Throws `InputError` if triangle `k` names a vertex that does not exist.
 template <class S>
 void require_corners(const SurfaceMesh<S>& mesh, std::size_t k) {
   for (const Index corner : mesh.triangles[k])
@@ -65,7 +65,7 @@ void require_corners(const SurfaceMesh<S>& mesh, std::size_t k) {
 }  // namespace detail
 
 /// The enclosed volume (m3) of a closed surface; positive if triangles are counter-clockwise seen from outside. Throws
-/// `InputError` for a triangle that names a vertex that is not there.
+/// `InputError` for a triangle that names a vertex that does not exist.
 template <class S>
 [[nodiscard]] double volume(const SurfaceMesh<S>& mesh) {
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) detail::require_corners(mesh, k);
@@ -86,7 +86,7 @@ template <class S>
 /// that lose a corner.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> weld(const SurfaceMesh<S>& mesh, double tolerance = 1e-6) {
-  detail::require(tolerance >= 0 && tolerance < 0.1, "hmps: vertices are to be merged within ", tolerance,
+  detail::require(tolerance >= 0 && tolerance < 0.1, "hmps: the tolerance for merging vertices is ", tolerance,
                   " of the surface's extent; give a small share such as 1e-6");
   const Box<S, 3> box = bounds(mesh);
   const S reach = static_cast<S>(tolerance) * (box.upper - box.lower).maxCoeff();
@@ -151,7 +151,7 @@ struct EdgeFaults {
   };
   Kind open;     ///< edges of one triangle
   Kind crowded;  ///< edges of three, five, ... triangles
-  Kind turned;   ///< edges run through more often in one direction than in the other
+  Kind turned;   ///< edges traversed more often in one direction than in the other
   Kind shared;   ///< edges of four, six, ... triangles, as many in either direction: no fault in itself
   Kind folded;   ///< edges of one triangle in both orientations
 
@@ -169,8 +169,8 @@ struct EdgeFaults {
   }
 };
 
-/// Throws `InputError` for repeated triangles, in the same orientation or, throughout a part, in both. For welded
-/// surfaces, with their faults.
+/// Throws `InputError` for repeated triangles, in the same orientation or, throughout a part, in both. `mesh` must be
+/// welded; `faults` are its faults.
 template <class S>
 void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   // Repeated triangles share their edges with others, or, in two orientations, with each other alone.
@@ -182,14 +182,14 @@ void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   const auto repeated = needless_repeats(mesh.triangles);
   if (!repeated.empty())
     throw InputError(message("hmps: ", mesh.source, " has ", mesh.triangles.size(), " triangles, of which ",
-                             repeated.size(), " are there already, the first at (",
-                             middle(repeated.front()).transpose(), "); call drop_repeated, or delete doubled faces"));
+                             repeated.size(), " are repeated, the first at (", middle(repeated.front()).transpose(),
+                             "); call drop_repeated, or delete the duplicate faces"));
   const auto hollow = double_sided(mesh.triangles, mesh.vertices.size());
   if (!hollow.empty())
     throw InputError(message("hmps: ", mesh.source, " has a part of ", hollow.size(), " triangles, at (",
                              middle(hollow.front()).transpose(),
-                             "), that is double-sided: each triangle is there in both orientations, so that it "
-                             "encloses nothing; let a mesh editor keep the outer one of each two"));
+                             "), that is double-sided: each triangle occurs in both orientations, so that the part "
+                             "encloses nothing; keep the outer triangle of each pair in a mesh editor"));
 }
 
 /// Throws `InputError` unless neighbouring triangles have consistent orientation.
@@ -197,7 +197,7 @@ template <class S>
 void require_oriented(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   require(faults.turned.count == 0, "hmps: ", mesh.source, " has neighbouring triangles of opposite orientation at ",
           faults.turned.count, " edges, the first at (", faults.turned.at.transpose(),
-          "); let a mesh editor make the normals consistent");
+          "); make the normals consistent in a mesh editor");
 }
 
 }  // namespace detail
@@ -238,14 +238,14 @@ namespace detail {
 }  // namespace detail
 
 /// Whether `x` lies inside the closed surface, by its winding number (sum of solid angles). Linear in the number of
-/// triangles; `fill_lattice` is much faster for a lattice. Throws `InputError` for a surface without triangles or with
-/// one that names a vertex that is not there, and a place that is not finite.
+/// triangles; `fill_lattice` is much faster for a lattice. Throws `InputError` for a surface without triangles, a
+/// triangle that names a vertex that does not exist, and a position that is not finite.
 template <class S>
 [[nodiscard]] bool inside(const SurfaceMesh<S>& mesh, const Vector<S, 3>& x) {
   detail::require(!mesh.triangles.empty(), "hmps: ", mesh.source,
                   " has no triangles; check that the file holds a surface");
   detail::require(detail::all_finite(x), "hmps: whether (", x.transpose(), ") is inside ", mesh.source,
-                  " is asked; give finite metres");
+                  " cannot be decided; give a position in finite metres");
   double angle = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     detail::require_corners(mesh, k);

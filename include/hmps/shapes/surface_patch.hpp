@@ -18,8 +18,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The area of a surface, or of a patch of one, in m2. Throws `InputError` for a triangle that names a vertex that is
-/// not there.
+/// The area of a surface, or of a patch of one, in m2. Throws `InputError` for a triangle that names a vertex that does
+/// not exist.
 template <class S>
 [[nodiscard]] double area(const SurfaceMesh<S>& mesh) {
   double sum = 0;
@@ -33,15 +33,15 @@ template <class S>
   return sum;
 }
 
-/// A patch of a surface, to be held or loaded: the triangles for which `holds(centre, normal)`, with the middle of the
-/// triangle in m and its unit normal, outward. By place or direction, or within a shape:
+/// A patch of a surface, to be held or loaded: the triangles for which `holds(centre, normal)` is true, with the middle
+/// of the triangle in m and its outward unit normal. Choose them by direction or position, or by a shape:
 ///
 ///     const auto base = surface_patch(mesh, [](const auto& at, const auto& n) { return n[2] < -0.9; });
 ///     const auto spot = surface_patch(mesh, [&](const auto& at, const auto& n) { return ball(at) < 0; });
 ///
-/// Triangles are taken whole: where they are large beside the patch, `refine` the surface first. Triangles without area
-/// are left out. Throws `InputError` where no triangle is chosen, for a broken surface, and for a closed one that is
-/// inside out, whose normals point inwards.
+/// Triangles are taken whole: if they are large compared with the patch, `refine` the surface first. Triangles without
+/// area are left out. Throws `InputError` if no triangle is chosen, for a broken surface, and for a closed surface that
+/// is inside out (its normals point inwards).
 template <class S, class Holds>
 [[nodiscard]] SurfaceMesh<S> surface_patch(const SurfaceMesh<S>& mesh, const Holds& holds) {
   detail::require_triangles(mesh);
@@ -74,16 +74,16 @@ template <class S, class Holds>
     patch.triangles.push_back(corners);
   }
   const Box<S, 3> box = bounds(mesh);
-  detail::require(!patch.triangles.empty(), "hmps: none of ", mesh.triangles.size(), " triangles of ", mesh.source,
+  detail::require(!patch.triangles.empty(), "hmps: none of the ", mesh.triangles.size(), " triangles of ", mesh.source,
                   ", which reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
-                  ") m, is in the patch; check its place and direction, or refine the surface");
+                  ") m, is in the patch; check the patch's position and direction, or refine the surface");
   return patch;
 }
 
 /// The surface with triangles whose edges are at most `longest` (m) long: longer ones are halved until none is left.
 /// Neighbours share their new vertices, so that a closed surface stays closed; its shape does not change. Throws
-/// `InputError` for a length that is not positive, a broken surface, and where more than 20 million triangles would
-/// come out.
+/// `InputError` for a length that is not positive, a broken surface, and if the result would have more than 20 million
+/// triangles.
 template <class S>
 [[nodiscard]] SurfaceMesh<S> refine(SurfaceMesh<S> mesh, double longest) {
   detail::require(detail::is_finite(longest) && longest > 0, "hmps: a surface is to be refined to edges of ", longest,
@@ -114,7 +114,7 @@ template <class S>
         continue;
       }
       again = true;
-      // So that the first edge is long, and of two long ones the third edge is not.
+      // Rotated so that the first edge is long and, if two edges are long, the third one is not.
       while (count == 1 ? !is_long(0) : count == 2 && is_long(2)) std::rotate(t.begin(), t.begin() + 1, t.end());
       const auto [a, b, c] = t;
       const Index ab = middle(a, b);

@@ -74,7 +74,7 @@ struct StackRow {
 
 /// A body of superelliptic sections stacked along a coordinate axis, with flat ends at the first and the last level.
 /// Centre and half axes are interpolated linearly between the rows. First order within a section; ignores the slope of
-/// the mantle along the axis.
+/// the lateral surface along the axis.
 template <class S>
 class Stack {
  public:
@@ -109,7 +109,7 @@ class Stack {
     return std::max(inside, end);
   }
 
-  /// The interpolated section at `level`; the end rows beyond the ends.
+  /// The interpolated section at `level`; beyond the ends, the end rows.
   [[nodiscard]] StackRow<S> section(S level) const {
     if (level <= rows_.front().level) return rows_.front();
     if (level >= rows_.back().level) return rows_.back();

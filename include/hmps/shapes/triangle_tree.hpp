@@ -22,11 +22,11 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A bounding-volume tree over the triangles of a surface: winding numbers and distances in a time logarithmic in the
+/// A bounding-volume tree over the triangles of a surface, for winding numbers and distances in time logarithmic in the
 /// number of triangles. The winding number (Jacobson et al. 2013) is 1 inside a closed surface, 0 outside, and changes
-/// gradually across the holes of an open one. Groups of triangles far from the point are replaced by a dipole and its
-/// first two moments (Barill et al. 2018), beyond `accuracy` radii of the group. Stores a copy of the triangles in
-/// `S`. Thread-safe.
+/// gradually across the holes of an open one. A group of triangles further from the point than `accuracy` radii of the
+/// group is replaced by a dipole and its first two moments (Barill et al. 2018). Stores a copy of the triangles in `S`.
+/// Thread-safe.
 template <std::same_as<double> S>
 class BasicTriangleTree {
   using V = Vector<S, 3>;
@@ -120,13 +120,13 @@ class BasicTriangleTree {
   static constexpr std::size_t depth = 72;
   static constexpr std::size_t leaf = 4;
 
-  /// The group of triangles of a node. Its solid angle at a distance is that of its moments about the centre: the
-  /// surface integral of area vector . g(centre - x + d) with g(r) = r / |r|^3, developed to the second order in d.
+  /// The group of triangles of a node. Its solid angle at a distance is computed from its moments about the centre: the
+  /// surface integral of area vector . g(centre - x + d) with g(r) = r / |r|^3, expanded to second order in d.
   struct Node {
     V lower, upper;          ///< box of the triangles in m
     std::size_t begin, end;  ///< the triangles
     std::size_t right = 0;   ///< second child; the first one follows the node; 0 for a leaf
-    V centre;                ///< mean of the triangles' centres by area in m
+    V centre;                ///< mean of the triangles' centres weighted by area in m
     V area;                  ///< sum of the triangles' area vectors in m2
     Matrix<S, 3> moment;     ///< sum of area vector (x) (centre of the triangle - centre) in m3
     S squared_radius;        ///< of the triangles' corners about the centre in m2
@@ -134,7 +134,7 @@ class BasicTriangleTree {
     std::array<S, 10> cubic;  ///< sum of n_i d_j d_k in m4: xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
     V traces;                 ///< sum of n (d . d) + 2 d (n . d) in m4
 
-    /// The solid angle seen from a point from which the centre lies at `r`.
+    /// The solid angle seen from a point; `r` is the vector in m from the point to the centre.
     [[nodiscard]] S far_angle(const V& r, S squared) const {
       const S x = r[0], y = r[1], z = r[2];
       const auto& c = cubic;
@@ -197,7 +197,7 @@ class BasicTriangleTree {
       const V area = area_vector(t[0], t[1], t[2]);
       const V sum = 3 * (centre_of(t) - node.centre);
       node.moment += area * sum.transpose() / 3;
-      // The mean of d d^T over a triangle, by its corners.
+      // The mean of d d^T over a triangle, from its corners.
       Matrix<S, 3> mean = sum * sum.transpose() / 12;
       for (const V& corner : t) mean += (corner - node.centre) * (corner - node.centre).transpose() / 12;
       node.traces += area * mean.trace() + 2 * mean * area;
@@ -245,7 +245,7 @@ class BasicTriangleTree {
   std::vector<Node> nodes_;
 };
 
-/// In double only: a template so that programs that search no tree do not compile one.
+/// In double only. It is a template so that programs that do not use a tree do not compile one.
 using TriangleTree = BasicTriangleTree<double>;
 
 }  // namespace hmps::inline HMPS_ABI

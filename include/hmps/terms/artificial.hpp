@@ -56,8 +56,8 @@ struct Artificial {
 };
 
 /// Kondo's stabiliser with E_hat = `modulus` in Pa (in the paper Young's modulus by \paper{18}): a number, a view or a
-/// callable. Throws `InputError` for a number that is negative or not finite; of views and callables `internal_force`
-/// does, for the values that they have then.
+/// callable. Throws `InputError` for a number that is negative or not finite. `internal_force` does the same for
+/// views and callables, with the values that they have when it is made.
 template <class Modulus>
 [[nodiscard]] Artificial<Modulus> artificial(Modulus modulus) {
   if constexpr (std::is_arithmetic_v<Modulus>)

@@ -22,12 +22,12 @@ concept ValidatesItself = requires(const Law& law) {
   law.validate();
 };
 
-/// Throws `InputError` if the stress `P` (Pa) at the small deformation `F` is not finite, Kirchhoff's stress P F^T not
-/// symmetric, or the stress falls from `at_rest`, that at F = 1, where the strain grows.
+/// Throws `InputError` if the stress `P` (Pa) at the small deformation `F` is not finite, if the Kirchhoff stress P F^T
+/// is not symmetric, or if the stress falls from `at_rest`, the stress at F = 1, where the strain grows.
 template <class K, int D>
 HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Matrix<Lanes<K>, D>& P,
                               const Matrix<Lanes<K>, D>& F, const Matrix<Lanes<K>, D>& at_rest) {
-  constexpr double most = 0.05;  // far above rounding and what a law for small strain leaves, some thousandths
+  constexpr double most = 0.05;  // far above rounding, and above the few thousandths of a law for small strain
   for (int l = 0; l < Lanes<K>::width; ++l) {
     const Index i = particles.particle(l);
     if (i == Blocks<K, D>::none) continue;
@@ -43,7 +43,7 @@ HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Mat
     const Matrix<double, D> kirchhoff = stress * gradient.transpose();
     require((kirchhoff - kirchhoff.transpose()).norm() <= most * kirchhoff.norm(), "hmps: the law of particle ", i,
             " gives a stress that turns the particle: P F^T is (by columns) ", kirchhoff,
-            " Pa, and must be symmetric; is S symmetric, or is P returned for S, or transposed?");
+            " Pa, and must be symmetric; is S symmetric, or is P returned instead of S, or transposed?");
     const Matrix<double, D> strain = gradient - Matrix<double, D>::Identity();
     require(rise.cwiseProduct(strain).sum() >= -most * rise.norm() * strain.norm(), "hmps: the law of particle ", i,
             " gives a stress that falls where the strain grows: at F - 1 = (by columns) ", strain, " P rises by ", rise,
@@ -73,9 +73,8 @@ struct Elastic {
   }
 
   /// Throws `InputError` for a law of each particle with a bulk or shear modulus that is not positive, and for a law of
-  /// your own whose stress at a small strain is not finite, or that turns the particle: Kirchhoff's stress P F^T is not
-  /// symmetric, or that falls where the strain grows. Laws that validate themselves were checked when the term was
-  /// made.
+  /// your own whose stress at a small strain is not finite, turns the particle (the Kirchhoff stress P F^T is not
+  /// symmetric), or falls where the strain grows. Laws that validate themselves were checked when the term was made.
   template <class K, int D>
   requires(!detail::ValidatesItself<Law>) void check_parameters(const BlockOfParticles<K, D>& particles) const {
     const auto& own = detail::value_at(law, particles);
@@ -90,7 +89,7 @@ struct Elastic {
     }
   }
 
-  /// Fails, with the name of the law, where it does not serve the scalar and the dimension of the bonds.
+  /// Fails to compile, with the name of the law, if the law does not serve the scalar and the dimension of the bonds.
   template <class K, int D>
   static constexpr bool serves() {
     using Own = std::remove_cvref_t<decltype(detail::value_at(std::declval<const Law&>(),

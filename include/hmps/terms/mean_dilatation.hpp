@@ -38,7 +38,7 @@ namespace hmps::inline HMPS_ABI {
 /// large.
 ///
 /// The law of the particles keeps a bulk modulus of its own, which resists changes of J from particle to particle. For
-/// deformations larger than a neighbourhood the two moduli add up. `split_bulk_modulus` divides a given one.
+/// deformations larger than a neighbourhood the two moduli add up. `split_bulk_modulus` divides a given modulus.
 ///
 /// With two `means`, the mean is taken twice: theta_i = d_i sum_k d_k theta'_k, where theta' is the mean above, and the
 /// pressure likewise. In walls of two layers that lie on no lattice, the means of the two sides differ by a fifth of
@@ -84,15 +84,15 @@ struct SplitBulkModulus {
 /// Gives the law twice `shear_modulus` (Pa), i.e. Poisson's ratio 0.29, and the rest of `bulk_modulus` (Pa) to the mean
 /// dilatation. With more in the law, sheets of two particles are too stiff; with less, those of three and more are too
 /// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive, and for a bulk modulus
-/// below 2/3 of the shear modulus, with which Poisson's ratio would be negative, as where the two are interchanged.
+/// below 2/3 of the shear modulus, with which Poisson's ratio would be negative, as when the two are interchanged.
 template <class P>
 [[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
   detail::require(detail::is_finite(bulk_modulus) && bulk_modulus > 0, "hmps: the bulk modulus to be split is ",
                   bulk_modulus, " Pa; it must be positive");
   detail::require(detail::is_finite(shear_modulus) && shear_modulus > 0,
-                  "hmps: the shear modulus beside the bulk modulus to be split is ", shear_modulus,
+                  "hmps: the shear modulus given with the bulk modulus to be split is ", shear_modulus,
                   " Pa; it must be positive");
-  // A ratio of zero itself may come out of rounding.
+  // Rounding may turn a Poisson's ratio of zero into a negative one.
   detail::require(P(3) * bulk_modulus >= P(2) * shear_modulus * (P(1) - P(16) * std::numeric_limits<P>::epsilon()),
                   "hmps: the bulk modulus to be split is ", bulk_modulus, " Pa beside a shear modulus of ",
                   shear_modulus, " Pa, so that Poisson's ratio is negative; give the bulk modulus first");
@@ -101,9 +101,10 @@ template <class P>
 }
 
 /// The mean dilatation as a term of `internal_force`, with the bulk modulus `bulk` in Pa: a number, a view or a
-/// callable. Throws `InputError` for a number that is negative or not finite; of views and callables `internal_force`
-/// does, for the values that they have then. `mean_dilatation<2>(bulk)` takes the mean twice, which costs two more
-/// sweeps with one number per bond. All terms of the mean dilatation in a force must take it equally often.
+/// callable. Throws `InputError` for a number that is negative or not finite. `internal_force` does the same for
+/// views and callables, with the values that they have when it is made. `mean_dilatation<2>(bulk)` takes the mean
+/// twice, which costs two more sweeps with one number per bond. All terms of the mean dilatation in a force must take
+/// it equally often.
 template <int Means = 1, class Bulk>
 [[nodiscard]] MeanDilatation<Bulk, Means> mean_dilatation(Bulk bulk) {
   if constexpr (std::is_arithmetic_v<Bulk>)

@@ -12,13 +12,13 @@ namespace hmps::inline HMPS_ABI {
 template <class P>
 struct SheetStabiliser {
   P modulus;                 ///< E_hat of \paper{20}, for `artificial`
-  SplitBulkModulus<P> bulk;  ///< for the law and for `mean_dilatation`, which is to be left out where its share is zero
+  SplitBulkModulus<P> bulk;  ///< for the law and for `mean_dilatation`; leave out the latter if its share is zero
 };
 
-/// The E_hat and the mean dilatation with which a wide sheet of `layers` particles bends best: with an error of
-/// frequency within 2 % from three particles on and within 5 % at two, for bulk moduli of 3 to 300 shear moduli.
+/// The E_hat and the mean dilatation with which a wide sheet of `layers` particles bends best: its frequency is right
+/// within 2 % with three particles or more and within 5 % with two, for bulk moduli of 3 to 300 shear moduli.
 /// Calibrated against bending waves in infinite sheets (Rayleigh and Lamb) with the paper's weight and radius;
-/// docs/theory.md has the table, and advice for bars as narrow as high.
+/// docs/theory.md has the table, and advice for bars that are as narrow as high.
 ///
 ///     const auto [E_hat, bulk] = sheet_stabiliser(4, law.bulk_modulus(), law.shear_modulus());
 ///
@@ -27,7 +27,7 @@ struct SheetStabiliser {
 template <class P>
 [[nodiscard]] SheetStabiliser<P> sheet_stabiliser(int layers, P bulk_modulus, P shear_modulus) {
   detail::require(layers >= 2, "hmps: a sheet of ", layers,
-                  " particles has no stabiliser; it takes two layers at least to bend");
+                  " particles has no stabiliser; it takes at least two layers to bend");
   const SplitBulkModulus<P> shared = split_bulk_modulus(bulk_modulus, shear_modulus);
   const SplitBulkModulus<P> alone{bulk_modulus, P(0)};
   const P ratio = bulk_modulus / shear_modulus, wave = shear_wave_modulus(shear_modulus);

@@ -54,8 +54,8 @@ class BlockParameters {
     for (int c = 0; c < D; ++c) result[c] = gather([&](Index i) { return parameter(i, c); });
     return result;
   }
-  /// A parameter per body: `table[body[i]]`. Throws `InputError` if `body` has another size or an entry is out of the
-  /// table.
+  /// A parameter per body: `table[body[i]]`. Throws `InputError` if `body` has another size or an entry lies outside
+  /// the table.
   template <class P, class B>
   [[nodiscard]] HMPS_INLINE T operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
     require_size(body, blocks_.size(), "bodies");
@@ -179,11 +179,11 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
 ///
 ///     f_i = sum_j t_ij r_ij / |r_ij|.
 ///
-/// The term multiplies by the weight of the bond itself, if it should. Where bonds know the volumes of particles it
-/// must, since the weight then carries that of the neighbour; `internal_force` checks that. Otherwise it receives only
-/// what is the same from both ends, and the force lies along the bond, so that momentum and angular momentum are
-/// conserved whatever it returns. t is the derivative of an energy density with respect to |r|, where each bond counts
-/// once: see `ForceEnergy`.
+/// If the tension is to be weighted, the term itself multiplies by the weight of the bond. Where bonds know the volumes
+/// of particles it must do so, since the weight then includes that of the neighbour; `internal_force` checks it. Apart
+/// from that weight, the term receives only quantities that are the same from both ends, and the force lies along the
+/// bond, so that momentum and angular momentum are conserved whatever it returns. t is the derivative of an energy
+/// density with respect to |r|, where each bond counts once: see `ForceEnergy`.
 template <class Term, class K, int D>
 concept PairTerm = requires(const Term& term, const BondState<Lanes<K>, D>& bond) {
   { term.tension(bond) } -> std::convertible_to<Lanes<K>>;
@@ -208,8 +208,8 @@ concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || Dampi
 
 namespace detail {
 
-/// Throws `InputError` unless the quantity `name` with the values `own` (in `unit`) is finite and not negative, or if
-/// it `must_be_positive` positive, at the particles of the block.
+/// Throws `InputError` unless the quantity `name` with the values `own` (in `unit`) is finite and not negative, or
+/// positive if `must_be_positive`, at the particles of the block.
 template <class K, int D>
 HMPS_COLD void require_values(const BlockParameters<K, D>& particles, const Lanes<K>& own, const char* name,
                               const char* unit, bool must_be_positive = false) {
@@ -218,7 +218,7 @@ HMPS_COLD void require_values(const BlockParameters<K, D>& particles, const Lane
     const K value = own.lane[l];
     require(i == Blocks<K, D>::none || (is_finite(value) && (must_be_positive ? value > K(0) : value >= K(0))),
             "hmps: the ", name, " of particle ", i, " is ", value, " ", unit, "; it must be finite and ",
-            must_be_positive ? "positive" : "not negative", " when the force is made: fill the parameters before");
+            must_be_positive ? "positive" : "not negative", " when the force is made: fill the parameters first");
   }
 }
 

@@ -27,7 +27,7 @@ struct ThinWallStabiliser {
 
 namespace detail {
 
-/// The walls of a fitted body: what makes them twist and bend correctly, over the shear modulus of the material.
+/// The walls of a fitted body, and the moduli with which they twist and bend correctly, over its shear modulus.
 template <class Real>
 class FittedWalls {
  public:
@@ -35,8 +35,8 @@ class FittedWalls {
   explicit FittedWalls(Real bulk)
       : bulk_(bulk), bulk_law_(4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3) - Real(4) / 3) {}
 
-  /// Counts a particle of a wall, with layers `apart` spacings apart. Returns E_hat: between those of columns whose
-  /// spacings of layers are 0.05 apart.
+  /// Counts a particle of a wall with layers `apart` spacings apart. Returns its E_hat, interpolated between columns
+  /// whose distances of layers differ by 0.05.
   Real add(int layers, Real apart) {
     const Real at = std::max((apart - closest) / step, Real(0)), share = at - std::floor(at);
     const auto lower = static_cast<std::size_t>(at);
@@ -45,7 +45,7 @@ class FittedWalls {
   }
 
   /// The bulk modulus of the law with which the energies of bending are right, by least squares over the particles.
-  /// Where they hardly depend on it, it stays near that of bulk, E / (1 - nu^2) - 4/3.
+  /// Where the energies hardly depend on it, it stays near its value in bulk, E / (1 - nu^2) - 4/3.
   [[nodiscard]] Real law() const {
     if (known_.empty()) return bulk_law_;
     const Real lowest = std::log(bulk_law_ / 4), highest = std::log(bulk_);
@@ -55,7 +55,7 @@ class FittedWalls {
     for (int k = 1; k <= steps; ++k)
       if (cost(at(Real(k))) < cost(at(Real(best)))) best = k;
     Real from = Real(best - 1), to = Real(best + 1);
-    for (int k = 0; k < 40; ++k) {  // thirds
+    for (int k = 0; k < 40; ++k) {  // ternary search
       const Real third = (to - from) / 3;
       if (cost(at(from + third)) < cost(at(to - third)))
         to -= third;
@@ -67,10 +67,10 @@ class FittedWalls {
 
  private:
   static constexpr Real closest = Real(0.6), step = Real(0.05);
-  /// The standard deviation with which E_hat comes to that of layers of `fit_particles`; see docs/theory.md.
+  /// The standard deviation with which E_hat is that of layers of `fit_particles`; see docs/theory.md.
   static constexpr Real disorder = Real(0.14);
-  /// What an e-fold of the law is worth as an error of the energy: with more than it needs, the law resists changes of
-  /// J from particle to particle in all else than bending.
+  /// The error of the energy that counts as much as a change of the law by a factor of e. With more than it needs, the
+  /// law resists changes of J from particle to particle in all motions but bending.
   static constexpr Real reluctance = Real(0.05);
 
   struct Node {
@@ -120,16 +120,16 @@ class FittedWalls {
 /// The choice is derived, not calibrated on bodies. A wall of thickness t with the twist kappa has the energy
 /// mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial,
 /// equal to it for hexagonal layers in which each particle lies over a hollow of the next layer, with as much disorder
-/// as `fit_particles` leaves. Of the bulk modulus the law keeps what makes the energies of the same layers right when
-/// they are bent in plane strain and as a strip, by least squares over the particles of walls; the mean dilatation has
-/// the rest. In bulk, and about where bending does not depend on it, the law keeps
+/// as `fit_particles` leaves. The law keeps the part of the bulk modulus that makes the energies of the same layers
+/// right when they are bent in plane strain and as a strip, by least squares over the particles of walls; the mean
+/// dilatation has the rest. In bulk, and approximately where bending does not depend on it, the law keeps
 ///
-///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 where the volume does not change
+///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 if incompressible
 ///
 /// See docs/theory.md.
 ///
 /// @param layers          layers through the wall at each particle; 0 in bulk, where E_hat is `shear_wave_modulus`
-/// @param layer_spacings  their distance in m
+/// @param layer_spacings  distance of these layers in m
 /// @param spacing         l0 in m
 /// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
 /// Throws `InputError` for moduli or a spacing that are not positive, a negative Poisson's ratio, lists of different
@@ -144,9 +144,8 @@ template <class P, class S>
                   " Pa give a negative Poisson's ratio; give the bulk modulus first, both in Pa");
   detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the particle spacing is ", spacing,
                   " m; it must be positive");
-  detail::require(layers.size() == layer_spacings.size(), "hmps: ", layers.size(),
-                  " particles have a number of layers but ", layer_spacings.size(),
-                  " a spacing of layers; give both of each particle");
+  detail::require(layers.size() == layer_spacings.size(), "hmps: the number of layers is given for ", layers.size(),
+                  " particles, but their spacing for ", layer_spacings.size(), "; give both for each particle");
   const P K = bulk_modulus, mu = shear_modulus;
   ThinWallStabiliser<P> chosen;
   chosen.moduli.reserve(layers.size());
@@ -160,7 +159,7 @@ template <class P, class S>
     detail::require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
                     " layers; it takes two to bend, and more than eight are bulk (0)");
     detail::require(apart >= 0.6 - 1e-6 && apart <= 1.3 + 1e-6, "hmps: the layers at particle ", i, " are ", apart,
-                    " spacings apart; give a spacing of which they are 0.6 to 1.3");
+                    " spacings apart; give a spacing with which this is 0.6 to 1.3");
     chosen.moduli.push_back(static_cast<P>(walls.add(layers[i], apart)) * mu);
   }
   chosen.bulk.law = std::min(K, static_cast<P>(walls.law()) * mu);

@@ -30,7 +30,7 @@ struct Viscous {
   }
 };
 
-/// `Viscous` with a density and a viscosity that are views or callables: rho nu of a bond is the mean of its ends.
+/// `Viscous` with a density and a viscosity that are views or callables: rho nu of a bond is the mean over its ends.
 template <PerParticle Rho, PerParticle Nu>
 struct ViscousOfEach {
   Rho density;   ///< rho in kg/m3.
@@ -58,7 +58,7 @@ struct ViscousOfEach {
 };
 
 namespace detail {
-/// Throws `InputError` for a number that is no density (kg/m3), or no viscosity (m2/s).
+/// Throws `InputError` for a number that is not a valid density (kg/m3) or viscosity (m2/s).
 template <class Rho, class Nu>
 void require_viscous(const Rho& density, const Nu& viscosity) {
   if constexpr (std::is_arithmetic_v<Rho>)
@@ -76,8 +76,8 @@ void require_viscous(const Rho& density, const Nu& viscosity) {
   detail::require_viscous(density, viscosity);
   return {density, viscosity};
 }
-/// The same with views or callables for one or both. Their values are read at each evaluation, and checked when
-/// `internal_force` is made, to be finite and not negative.
+/// The same with views or callables for one or both. Their values are read at each evaluation. When `internal_force` is
+/// made, they are checked to be finite and not negative.
 template <PerParticle Rho, PerParticle Nu>
 requires(!std::is_arithmetic_v<Rho> || !std::is_arithmetic_v<Nu>)
     [[nodiscard]] ViscousOfEach<Rho, Nu> viscous(Rho density, Nu viscosity) {

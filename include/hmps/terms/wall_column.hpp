@@ -14,16 +14,16 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Energies of a flat wall that is twisted or bent by a curvature of one: of one particle in each layer, in the mean
-/// over the particles of the layer. Lengths are in spacings, moduli over the shear modulus.
+/// Energies of a flat wall that is twisted or bent by a curvature of one: those of one particle in each layer, averaged
+/// over the particles of the layer. Lengths are in spacings, moduli in shear moduli.
 template <class Real>
 class WallColumn {
  public:
   static constexpr int most_layers = 8;
 
-  /// `fill` is called with a function add(layer, weight, visit) that it calls for the particles of the wall. Their
-  /// weights sum to one in each layer. `visit(bond)` calls bond(r, height, other) for every neighbour: the vector to
-  /// it, its height over the middle of the wall, and its layer.
+  /// `fill(add)` calls add(layer, weight, visit) for the particles of the wall, whose weights sum to one in each layer.
+  /// `visit(bond)` calls bond(r, height, other) for every neighbour, with the vector to it, its height over the middle
+  /// of the wall, and its layer.
   template <class Fill>
   WallColumn(int layers, Real apart, const Fill& fill) : layers_(layers), apart_(apart) {
     shear_ = volume_ = misfit_ = Form::Zero(layers + 1, layers + 1);
@@ -37,12 +37,12 @@ class WallColumn {
   [[nodiscard]] Real twist(Real artificial) const {
     return (twist_strain_ + artificial * twist_misfit_) / (cube() / 3);
   }
-  /// E_hat with which that is one.
+  /// The E_hat with which `twist` is one.
   [[nodiscard]] Real artificial() const { return (cube() / 3 - twist_strain_) / twist_misfit_; }
 
   /// The energy of bending in plane strain over the exact one, E / (1 - nu^2) kappa^2 t^2 / 24 per volume, with the
-  /// bulk modulus `law` of the law and `mean` of the mean dilatation, taken twice. Layers are free to move across the
-  /// wall.
+  /// bulk moduli `law` of the law and `mean` of the mean dilatation, whose mean is taken twice. Layers are free to move
+  /// across the wall.
   [[nodiscard]] Real plate(Real artificial, Real law, Real mean) const {
     const Real bulk = law + mean, modulus = 4 * (bulk + Real(1) / 3) / (bulk + Real(4) / 3);
     return released(form(artificial, law, mean), layers_ - 1) / (modulus * cube() / 24);
@@ -54,8 +54,8 @@ class WallColumn {
   }
 
  private:
-  /// Row and column 0 belong to the bending, k to a displacement of layer k across the wall by one, and the last to a
-  /// bending across, in the opposite sense.
+  /// Row and column 0 belong to the bending, k to a displacement of layer k by one across the wall, and the last to a
+  /// bending about the other axis, in the opposite sense.
   static constexpr int most_fields = most_layers + 1;
   using Form = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_fields, most_fields>;
   using Matrix3 = Matrix<Real, 3>;
@@ -66,7 +66,7 @@ class WallColumn {
   [[nodiscard]] Form form(Real artificial, Real law, Real mean) const {
     return shear_ + law * volume_ + artificial * misfit_ + mean * mean_;
   }
-  /// The least energy of the bending with the next `free` fields.
+  /// The least energy of the bending when the next `free` fields are free.
   [[nodiscard]] static Real released(const Form& all, int free) {
     const Form q = all.block(1, 0, free, 1);
     return all(0, 0) - q.cwiseProduct(Form(all.block(1, 1, free, free).llt().solve(q))).sum();
@@ -97,7 +97,7 @@ class WallColumn {
         for (int b = 0; b <= layers_; ++b) squares(a, b) += w * u.dot(displacement(b, r, height, layer, other));
       }
     });
-    bonds_(layer, layer) += weight;  // a mean dilatation is that of the particle and its neighbours
+    bonds_(layer, layer) += weight;  // the mean dilatation is over the particle and its neighbours
     const Matrix3 inverse = A.inverse();
     const Real misfit = weight * Real(1.5) / A.trace();
     for (std::size_t m = 0; m < 2; ++m) {
@@ -120,14 +120,14 @@ class WallColumn {
     }
   }
 
-  /// Of a neighbour in layer `other` against a particle of `layer`, in field `a`.
+  /// The displacement, in field `a`, of a neighbour in layer `other` relative to a particle of `layer`.
   [[nodiscard]] Vector3 displacement(int a, const Vector3& r, Real height, int layer, int other) const {
     if (a == 0) return {-r[0] * height, 0, r[0] * r[0] / 2};
     if (a == layers_) return {0, r[1] * height, -r[1] * r[1] / 2};
     return {0, 0, Real((other == a) - (layer == a))};
   }
 
-  /// The form of the mean dilatation, from the bonds between the layers, as `MeanDilatation` takes its means.
+  /// The form of the mean dilatation, from the bonds between the layers, with the means of `MeanDilatation`.
   void take_means() {
     Form d = Form::Ones(layers_, 1);
     constexpr int enough = 200;
@@ -145,15 +145,15 @@ class WallColumn {
   Form traces_;  // of the displacement gradient, by layer and field
 };
 
-/// The column of hexagonal layers, `apart` spacings apart, each over the hollows of the next, whose particles stand
-/// `disorder` of the distance of the sites from them: the standard deviation along both axes.
+/// The column of hexagonal layers, `apart` spacings apart, each over the hollows of the next. Particles deviate from
+/// their sites along both axes of the layer; the standard deviation is `disorder` times the distance of the sites.
 template <class Real>
 [[nodiscard]] WallColumn<Real> hexagonal_column(int layers, Real apart, Real disorder) {
   constexpr int samples = 400;
   const Real side = std::sqrt(2 / (std::sqrt(Real(3)) * apart)), rise = side * std::sqrt(Real(0.75));
   const Real by = disorder * std::sqrt(Real(12)) * side, first = std::sqrt(Real(2)), second = std::sqrt(Real(3));
   Real drawn = 0;
-  // From -1/2 to 1/2; the parts of quadratic sequences behind the point are spread evenly, and independently in pairs.
+  // From -1/2 to 1/2; the fractional parts of quadratic sequences are spread evenly, and independently in pairs.
   const auto off = [&](Real root) { return drawn * drawn * root - std::floor(drawn * drawn * root) - Real(0.5); };
   const auto moved = [&](Real x, Real y, Real z) {
     ++drawn;

@@ -51,13 +51,13 @@ TEST(CarriedSurface, InterpolatesWhatIsLinearExactly) {
   carried.interpolate(scalars(quantity), scalars(found));
   for (std::size_t p = 0; p < found.size(); ++p) EXPECT_NEAR(found[p], slope.dot(ball.mesh.vertices[p]), 2 * rounding);
 
-  // The mean stays between the values of the particles: those below the surface, where the points lie beyond them.
+  // The mean stays within the range of the values of the particles below the surface; the points lie beyond them.
   carried.mean(scalars(quantity), scalars(found));
   const auto [least, largest] = std::minmax_element(quantity.begin(), quantity.end());
   for (std::size_t p = 0; p < found.size(); ++p) {
     EXPECT_GT(found[p], *least);
     EXPECT_LT(found[p], *largest);
-    EXPECT_NEAR(found[p], slope.dot(ball.mesh.vertices[p]), slope.norm() * 2.5 * l0);  // none is further away
+    EXPECT_NEAR(found[p], slope.dot(ball.mesh.vertices[p]), slope.norm() * 2.5 * l0);  // no particle is further away
   }
 }
 
@@ -84,7 +84,7 @@ double error_of_bent_bar(double spacing) {
   carried(vectors(x), vectors(places));
   double largest = 0;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    // The second derivatives of `bent` along x are (radius - z) / radius^2, mixed 1 / radius, along z none.
+    // The second derivative of `bent` is (radius - z) / radius^2 along x, 1 / radius mixed, and zero along z.
     const double curvature = (radius + 0.015) / (radius * radius) + 1 / radius;
     double bound = rounding;
     for (const auto& share : carried.shares(p))

@@ -69,11 +69,11 @@ TEST(FitParticles, FillsATiltedPlateWithWholeLayers) {
     const auto fitted = fit_particles(plate, Plate::box(), 1.0);
     const int layers = static_cast<int>(std::lround(thickness));
     const double apart = thickness / layers;
-    // One for each cube of the spacing, up to one for each layer by rounding.
+    // One for each cube of the spacing; rounding may change the number by one for each layer.
     EXPECT_NEAR(static_cast<double>(fitted.size()), plate.volume(), layers);
     std::vector<int> count(static_cast<std::size_t>(layers));
     for (const V3& x : fitted.positions) {
-      // Away from the narrow faces, along which the layers run around.
+      // Away from the narrow faces, around which the layers run.
       const V3 at = plate.local(x);
       const double rim = std::min({at[0], 10 - at[0], at[1], 8 - at[1]});
       if (rim < thickness / 2 + 0.1) continue;
@@ -94,7 +94,8 @@ TEST(FitParticles, FillsATiltedPlateWithWholeLayers) {
   }
 }
 
-// Along the grid of samples too, whose rows do not end where layers do; the two faces of a wall are one layer.
+// Also along the grid of samples, whose rows do not end where layers do. Layers at the same depth from either face of a
+// wall have the same number.
 TEST(FitParticles, FillsAllLayersOfABoxAlike) {
   for (const double thickness : {2.0, 3.3, 4.0, 4.45}) {
     const Box<double, 3> box{V3(0.3, 0.1, 0.2), V3(16.3, 14.1, 0.2 + thickness)};
@@ -106,7 +107,7 @@ TEST(FitParticles, FillsAllLayersOfABoxAlike) {
       if (std::min({at[0], 16 - at[0], at[1], 14 - at[1]}) < 2) continue;
       ++count[static_cast<std::size_t>(std::clamp(static_cast<int>(at[2] / thickness * layers), 0, layers - 1))];
     }
-    // 120 spacings^2 of each layer. Without shares of layers and faces, 17 % too many or few.
+    // 120 spacings^2 of each layer. Without the shares of layers and faces there are 17 % too many or too few.
     for (const int n : count) EXPECT_NEAR(n, 120 * thickness / layers, 0.08 * 120) << thickness;
   }
 }
@@ -121,7 +122,7 @@ TEST(FitParticles, KeepsTheOutermostLayerHalfALayerInside) {
     outermost += -plate(x) < 0.5 + 1e-9;
   }
   EXPECT_NEAR(least, 0.5, 1e-9);
-  // The volume of the layer: what a box of two less in each extent leaves.
+  // The volume of the layer: what is left of the plate without a box that is smaller by two in each extent.
   EXPECT_NEAR(static_cast<double>(outermost), plate.volume() - 8 * 6 * 1, 0.1 * plate.volume());
 }
 
@@ -152,7 +153,7 @@ TEST(FitParticles, FillsACurvedShellWithWholeLayers) {
     EXPECT_NEAR(layer, std::round(layer), 0.03) << x.transpose();
     ++count[static_cast<std::size_t>(std::clamp(std::lround(layer), 0L, 2L))];
   }
-  // Each layer has the share of its volume, (r + s / 2)^3 - (r - s / 2)^3.
+  // The share of each layer is that of its volume, (r + s / 2)^3 - (r - s / 2)^3.
   const double s = 2.8 / 3, all = std::pow(8.4, 3) - std::pow(5.6, 3);
   for (int k = 0; k < 3; ++k) {
     const double share = (std::pow(5.6 + (k + 1) * s, 3) - std::pow(5.6 + k * s, 3)) / all;
@@ -184,7 +185,7 @@ TEST(FitParticles, FillsAThickBody) {
   for (const double v : fitted.volumes) EXPECT_NEAR(v, 1, 0.55);
 }
 
-// However far the middle is from the surface.
+// The middle is filled however far it is from the surface.
 TEST(FitParticles, FillsTheMiddleOfABodyOfManySpacings) {
   using V2 = Vector<double, 2>;
   const auto fitted = fit_particles(Box<double, 2>{V2(0, 0), V2(64, 64)}, Box<double, 2>{V2(-1, -1), V2(65, 65)}, 1.0);
@@ -195,8 +196,8 @@ TEST(FitParticles, FillsTheMiddleOfABodyOfManySpacings) {
   EXPECT_LE(*std::max_element(fitted.volumes.begin(), fitted.volumes.end()), 1.5);
 }
 
-// Each side of a narrow gap has the layers of its own part: the block was hollow, and the plate clumped, where both
-// crossed one cell of the samples.
+// Each side of a narrow gap has the layers of its own part. Where both sides crossed one cell of the samples, the block
+// used to be hollow, and the particles of the plate clumped.
 TEST(FitParticles, TellsTheSidesOfANarrowGapApart) {
   for (const double gap : {0.1, 0.3, 0.7})
     for (const double shift : {0.0, 0.31, 0.6}) {
@@ -213,7 +214,7 @@ TEST(FitParticles, TellsTheSidesOfANarrowGapApart) {
     }
 }
 
-// A wall as thin as is allowed has particles everywhere, whatever the rounding of its thickness.
+// A wall of the least thickness allowed has particles everywhere, whatever the rounding of its thickness.
 TEST(FitParticles, FillsWallsOfTheThinnestSpacing) {
   using Vf = Vector<float, 3>;
   const auto shell = [](const Vf& x) { return std::max(x.norm() - 6, 4.8F - x.norm()); };
@@ -240,7 +241,7 @@ TEST(FitParticles, LeavesThinEdgesToTheirNeighboursAndFillsJunctions) {
   const auto joined = fit_particles(junction, Box<double, 3>{V3(-7, -1, -1), V3(7, 7, 9)}, 1.0);
   EXPECT_NEAR(sum(joined.volumes), 216, 0.2);
   EXPECT_NEAR(static_cast<double>(joined.size()), 216, 4);
-  // Where the number of layers changes they may end between two levels.
+  // Where the number of layers changes, particles may end between two levels.
   EXPECT_LT(joined.largest_distance, 0.02);
   EXPECT_GT(nearest(joined.positions, 1.5), 0.5);
 }
@@ -257,7 +258,6 @@ struct TwoThreads {
   }
 };
 
-// Faces that meet at more than 60 degrees, as where a body that flares is cut, are not the two sides of a wall.
 /// A block, and a leaf of 0.8 spacings beside it, across a gap.
 TEST(FitParticles, RefusesAPartWithoutParticlesAcrossAGap) {
   for (const double gap : {0.2, 1.0, 2.0}) {
@@ -271,7 +271,7 @@ TEST(FitParticles, RefusesAPartWithoutParticlesAcrossAGap) {
   }
 }
 
-/// A cone, in whose tip few particles have room.
+/// A cone, whose tip has room for only a few particles.
 TEST(FitParticles, LeavesNoParticleWithoutSupport) {
   const auto cone = [](const V3& x) {
     constexpr double radius = 2, height = 6;
@@ -295,6 +295,7 @@ TEST(FitParticles, LeavesNoParticleWithoutSupport) {
   EXPECT_NEAR(sum(held.volumes), sum(all.volumes), 1e-9);
 }
 
+// Faces that meet at more than 60 degrees, as where a flaring body is cut, are not the two sides of a wall.
 TEST(FitParticles, TakesNoAcuteEdgeForAWall) {
   for (const double degrees : {62.0, 66.0, 70.0}) {
     const double angle = degrees * 3.14159265358979 / 180;
@@ -317,8 +318,8 @@ TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
   EXPECT_EQ(a.largest_distance, b.largest_distance);
 }
 
-// The distance to a mesh takes microseconds. Every point of every cell that the surface cuts would take 3200 a
-// particle.
+// The distance to a mesh takes microseconds. Sampling every point of every cell that the surface cuts would take 3200
+// evaluations per particle.
 TEST(FitParticles, AsksTheShapeSeldom) {
   const Plate plate{2.9};
   std::size_t asked = 0;
@@ -392,11 +393,11 @@ TEST(FitParticles, RefusesWhatCannotBeFitted) {
         hmps::FitSettings{.least_support = -0.1}, hmps::FitSettings{.least_support = nan}})
     EXPECT_NE(message_of([&] { (void)fit_particles(ball, box, 1.0, bad); }), "none");
 
-  // A plate of one spacing holds one layer, not two of the default; a fin of it is found on a body that is thick.
+  // A plate of one spacing holds one layer, not the two of the default. A thin fin is found on a thick body too.
   const Box<double, 3> plate{V3(-2.5, -2.5, 0), V3(2.5, 2.5, 1)};
   EXPECT_TRUE(
       starts(message_of([&] { (void)fit_particles(plate, box, 1.0); }), "hmps: the body is about 1 m thick at ("));
-  // One layer has no deformation gradient, but may serve something else.
+  // One layer has no deformation gradient, but may serve another purpose.
   EXPECT_TRUE(
       starts(message_of([&] { (void)fit_particles(plate, box, 1.0, {.least_layers = 1}); }),
              "hmps: none of the 25 particles that fit into the body at a spacing of 1 m has enough neighbours"));

@@ -70,7 +70,8 @@ TYPED_TEST(OpenSurfaceLattice, SmallHolesMoveFewSites) {
   std::vector<V> differ;
   std::set_symmetric_difference(filled.points.begin(), filled.points.end(), right.begin(), right.end(),
                                 std::back_inserter(differ), before);
-  // A cover over a hole deviates from the triangle by less than its size; edges are 0.2 long, holes lie on few sites.
+  // The cover of a hole deviates from the missing triangle by less than the hole's size; edges are 0.2 long, and few
+  // sites lie that close to holes.
   EXPECT_LE(differ.size(), 20u);
   const auto same = hmps::fill_open_lattice(open, S(0.1), V(V::Zero()), Backwards{});
   EXPECT_EQ(same.points, filled.points);
@@ -80,8 +81,8 @@ TYPED_TEST(OpenSurfaceLattice, SmallHolesMoveFewSites) {
 TYPED_TEST(OpenSurfaceLattice, AnOpenEndIsClosedByAPlane) {
   using S = TypeParam;
   using V = Vector<S, 3>;
-  // Without its upper face a box lacks, within, that face's share of the winding number, and has it above with the
-  // other sign: a half in the plane of the rim, more below and less above.
+  // Without its upper face, the winding number of a box lacks the share of that face inside, and above it has that
+  // share with the other sign: it is a half in the plane of the rim, more below and less above.
   auto open = box_surface<S>(V(0, 0, 0), V(4, 4, 4));
   std::erase_if(open.triangles, [&](const auto& t) {
     return std::all_of(t.begin(), t.end(), [&](hmps::Index v) { return open.vertices[v][2] == 4; });
@@ -107,7 +108,8 @@ TYPED_TEST(OpenSurfaceLattice, SaysWhatItCannotFill) {
   EXPECT_NE(message(turned, 0.1).find("opposite orientation"), std::string::npos);
   auto sheet = box;
   sheet.triangles.resize(2);
-  EXPECT_NE(message(sheet, 0.1).find("surely encloses no lattice site"), std::string::npos) << message(sheet, 0.1);
+  EXPECT_NE(message(sheet, 0.1).find("does not clearly enclose any lattice site"), std::string::npos)
+      << message(sheet, 0.1);
   EXPECT_NE(message(hmps::weld(joined(box, reversed(box))), 0.1).find("double-sided"), std::string::npos);
   auto leaf = sheet;
   leaf.triangles = {leaf.triangles[0], {leaf.triangles[0][1], leaf.triangles[0][0], leaf.triangles[0][2]}};

@@ -51,10 +51,10 @@ TEST(PatchPressure, SumsToPressureTimesAreaThatFollowsTheBody) {
   const PatchPressure load(vectors(body.x), top, l0);
   load.add(vectors(body.x), vectors(body.f), pressure, particle);
   EXPECT_NEAR((body.force() - V(0, 0, -pressure * 0.016 * 0.012)).norm(), 0, rounding);
-  // About its middle it has no torque.
+  // There is no torque about the middle of the patch.
   EXPECT_NEAR((body.torque() - V(0.008, 0.006, 0.02).cross(body.force())).norm(), 0, rounding);
 
-  // Stretched twice along x, then turned: twice the area, and across it.
+  // Stretched by two along x, then turned: the force is that on twice the area, and normal to it.
   const Matrix<double, 3> R = Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   const Matrix<double, 3> stretch = V(2, 1, 0.5).asDiagonal();
   body.move(R * stretch, V(1, 0, -1));
@@ -116,7 +116,7 @@ TEST(PatchPressure, RefusesWhatDoesNotFit) {
   EXPECT_THROW(load.add(vectors(body.x), vectors(few), pressure, particle), InputError);
   EXPECT_THROW(load.add(vectors(few), vectors(few), pressure, particle), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, 0.0), InputError);
-  // The spacing for its cube, the whole body, and volume and pressure in the wrong order.
+  // The spacing instead of its cube, the volume of the whole body, and volume and pressure in the wrong order.
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, l0), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), pressure, 480 * particle), InputError);
   EXPECT_THROW(load.add(vectors(body.x), vectors(body.f), particle, pressure), InputError);
@@ -133,7 +133,7 @@ std::string said_of(const auto& call) {
   return "nothing";
 }
 
-// Far too short a spacing made millions of triangles first, and the error then asked for a shorter one.
+// A spacing that is far too short used to make millions of triangles first, and the error then asked for a shorter one.
 TEST(PatchPressure, NamesItsSpacingWhereItDoesNotFit) {
   const Body body = brick();
   for (const double times : {1e-5, 0.01, 0.1, 10., 100.}) {

@@ -40,7 +40,7 @@ TYPED_TEST(SurfaceLattice, VerticesEdgesAndPolesOnColumnsLeaveNoGapsOrSpikes) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   // Poles, meridians and quads of these surfaces lie on columns; a wrong count would fill or miss
-  // a whole column, as the solid angle shows.
+  // a whole column, which the solid angle reveals.
   for (const auto& mesh : {torus_surface<S>(S(2), S(0.75), 16, 8), sphere_surface<S>(V(0, 0, 0), S(2.5), 1),
                            reversed(sphere_surface<S>(V(0, 0, 0), S(2.5), 2))}) {
     const auto points = hmps::fill_lattice(mesh, S(0.5));
@@ -115,7 +115,7 @@ TYPED_TEST(SurfaceLattice, RefusesOpenSurfacesAndSpacingsThatMakeNoSense) {
     }
     return std::string("nothing was thrown");
   };
-  // Millimetres that were taken for metres, either way.
+  // Millimetres taken for metres, in the spacing and in the surface.
   EXPECT_NE(message(S(1.2)).find("is 1 m large, less than one spacing of 1.2"), std::string::npos) << message(S(1.2));
   EXPECT_NE(message(S(1e-4)).find("read with a scale of 1e-3"), std::string::npos) << message(S(1e-4));
 }

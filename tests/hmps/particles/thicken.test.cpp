@@ -28,7 +28,7 @@ TYPED_TEST(Thicken, GivesSupportToAThinOrganThatRemovalWouldEat) {
   const auto points = hmps::fill_lattice(sheet, Box<S, 3>{V::Constant(S(-0.014)), V::Constant(S(0.014))}, S(l0));
   const auto weak = hmps::find_weak(hmps::vectors(points), settings);
   ASSERT_GT(weak.size(), 100u);
-  EXPECT_THROW((void)hmps::supported_particles(hmps::vectors(points), settings), hmps::InputError);  // it would eat all
+  EXPECT_THROW((void)hmps::supported_particles(hmps::vectors(points), settings), hmps::InputError);  // removes all
 
   const auto added = hmps::thicken(hmps::vectors(points), settings);
   EXPECT_LE(added.size(), 2 * weak.size());
@@ -36,7 +36,7 @@ TYPED_TEST(Thicken, GivesSupportToAThinOrganThatRemovalWouldEat) {
   all.insert(all.end(), added.begin(), added.end());
   EXPECT_LE(hmps::find_weak(hmps::vectors(all), settings).size(), weak.size() / 100);
   EXPECT_GE(hmps::supported_particles(hmps::vectors(all), settings).size(), points.size());
-  // What was added lies on the lattice, beside the sheet.
+  // The added particles lie on the lattice, beside the sheet.
   for (const V& x : added) {
     EXPECT_GE(sheet(x), S(0));
     EXPECT_LE(sheet(x), S(2.5e-3));

@@ -153,7 +153,7 @@ TEST(Torus, MeasuresDistance) {
   EXPECT_NEAR(torus(Vector<double, 3>(5, 0, 4)), 4.5, 1e-15);
 }
 
-// A shape that is not there would leave a hole in a body without a word.
+// A shape that does not exist would silently leave a hole in a body.
 TEST(Shapes, OfNegativeSizeAreNaN) {
   using V = Vector<double, 3>;
   const V origin = V::Zero(), one = V::Ones();

@@ -43,7 +43,7 @@ TYPED_TEST(Isosurface, IsClosedAndTurnedOutwardsWithItsVerticesOnTheBall) {
   EXPECT_LT(volume(mesh), exact);
 }
 
-// Each halving of the cells quarters what is cut off, more or less as the cells happen to lie.
+// Each halving of the cells quarters the volume that is cut off, roughly, depending on how the cells happen to lie.
 TYPED_TEST(Isosurface, ConvergesWithTheSquareOfTheCell) {
   using S = TypeParam;
   const hmps::Ball<S, 3> ball{V<S>::Zero(), S(1)};
@@ -55,7 +55,7 @@ TYPED_TEST(Isosurface, ConvergesWithTheSquareOfTheCell) {
   EXPECT_NEAR(missing(S(0.05)) / (4 * std::numbers::pi * 0.05 * 0.05), 0.08, 0.005);
 }
 
-// What the docstring states: on the edges and corners of boxes in 30 directions 0.58 and 0.65 cells at most.
+// As the docstring states: on the edges and corners of boxes in 30 directions 0.58 and 0.65 cells at most.
 TEST(Isosurface, BevelsRightAngledEdgesAsStated) {
   const double cell = 0.1;
   const hmps::Box<double, 3> block{V<double>(-0.6, -0.7, -0.5), V<double>(0.63, 0.64, 0.55)};
@@ -75,7 +75,7 @@ TEST(Isosurface, BevelsRightAngledEdgesAsStated) {
   EXPECT_GT(edge, 0.4);
 }
 
-// Which corner of a tetrahedron is inside, and which way it is turned: every case occurs.
+// Every case occurs: whichever corners of a tetrahedron lie inside the shape, in either orientation.
 TYPED_TEST(Isosurface, ClosesWhateverTheSignsOfTheNodes) {
   using S = TypeParam;
   const auto noise = [](const V<S>& x) {

@@ -50,7 +50,7 @@ TEST(NearestOnTriangle, KnowsItsPartOfTheTriangle) {
 }
 
 TEST(NearestOnTriangle, OfFlatTrianglesIsThatOfTheirEdges) {
-  // From the place of two corners to the third.
+  // A segment from two coincident corners to the third.
   EXPECT_EQ((hmps::detail::nearest_on_triangle({V(0, 0, 0), V(0, 0, 0), V(1, 0, 0)}, V(0.5, 1, 0)).place - V(0.5, 0, 0))
                 .norm(),
             0);

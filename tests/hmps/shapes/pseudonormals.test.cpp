@@ -12,7 +12,7 @@ namespace pseudonormals_test {
 
 using V = hmps::Vector<double, 3>;
 
-/// The corner of the first octant, with the outside of each face towards the negative axis.
+/// The tetrahedron in the corner of the first octant. The faces there point along the negative axes.
 hmps::SurfaceMesh<double> tetrahedron() {
   return {{V(0, 0, 0), V(1, 0, 0), V(0, 2, 0), V(0, 0, 3)}, {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
 }
@@ -25,10 +25,10 @@ TEST(Pseudonormals, FacesEdgesAndCornersOfATetrahedron) {
   EXPECT_EQ(normals(1, 5), V(-1, 0, -1));  // the same edge seen from there
   EXPECT_LT((normals(3, 6) - V(6, 3, 2) / 7).norm(), 1e-15);
   EXPECT_LT((normals(0, 4) - V(6, 3, -5) / 7).norm(), 1e-15);
-  // Three right angles meet at corner 0, in whichever triangle.
+  // Three right angles meet at corner 0, whichever triangle is asked.
   const V origin = V::Constant(-std::numbers::pi / 2);
   for (const std::size_t t : {0u, 1u, 2u}) EXPECT_LT((normals(t, 0) - origin).norm(), 1e-15);
-  // At corner 1 the right angles of two faces are left of atan(2) and atan(3).
+  // At corner 1 two right-angled faces have the angles atan(2) and atan(3).
   const double third = std::acos(1 / std::sqrt(50.0));
   EXPECT_LT((normals(3, 0) - (V(0, 0, -std::atan(2)) + V(0, -std::atan(3), 0) + third * V(6, 3, 2) / 7)).norm(), 1e-14);
 }

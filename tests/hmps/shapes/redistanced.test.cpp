@@ -33,7 +33,7 @@ TEST(Redistanced, IsTheDistanceOfAFunctionThatIsNone) {
   EXPECT_TRUE(std::isnan(distance(V(std::numeric_limits<double>::quiet_NaN(), 0, 0))));
 }
 
-// The least of two distances says that the middle of the joint is a fifth below the surface of either box.
+// By the minimum of the two distances, the middle of the joint lies 0.2 below the surface of either box.
 TEST(Redistanced, KnowsTheInsideOfUnitedParts) {
   const auto united = hmps::unite(Box{V(-1, -0.5, -0.5), V(0.2, 0.5, 0.5)}, Box{V(-0.2, -0.5, -0.5), V(1, 0.5, 0.5)});
   const auto distance = redistanced(united, around, 0.05);
@@ -43,8 +43,8 @@ TEST(Redistanced, KnowsTheInsideOfUnitedParts) {
   EXPECT_NEAR(distance(V(0, 0, 0.7)), 0.2, 1e-4);
 }
 
-// Two plates at a right angle, and a fin of a third of a cell between cells: its sign was that of the shape, and its
-// distance that to the surface of the plates, so that it jumped by up to its length.
+// Two plates at a right angle, and a fin of a third of a cell between the nodes of the cells. The sign used to be that
+// of the shape, and the distance that to the surface of the plates, so that it jumped by up to the length of the fin.
 TEST(Redistanced, DoesNotJumpAtFinsThinnerThanACell) {
   const auto plates = hmps::unite(Box{V(-1, -1, -0.2), V(1, 1, 0.2)}, Box{V(-0.2, -1, -0.2), V(0.2, 1, 1)});
   const auto shape = hmps::unite(plates, Box{V(-1.2, -0.01, 0.2), V(1.2, 0.01, 1.2)});
@@ -85,7 +85,7 @@ TEST(Redistanced, EndsAtTheFacesOfTheBox) {
   EXPECT_NEAR(upper(V(0, 0, 0.8)), -0.2, 2e-3);
 }
 
-// A plate whose width grows, with a multiple of what y is above its half width in place of a distance.
+// A plate whose width grows along x. In place of a distance, the shape has a multiple of |y| less the half width.
 TEST(Redistanced, LetsAnyShapeBeFitted) {
   const auto plate = [](const V& x) {
     const double side = std::abs(x[1]) - 0.5 - 0.2 * (x[0] + 1) * (x[0] + 1) / 4;

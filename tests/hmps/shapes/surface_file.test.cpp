@@ -153,7 +153,7 @@ TYPED_TEST(SurfaceFile, ObjLinesGoOnAndFacesMayComeFirst) {
     EXPECT_EQ(mesh.triangles.size(), 12u);
     EXPECT_NEAR(hmps::volume(mesh), 1, 8 * std::numeric_limits<S>::epsilon());
   }
-  // Lines are counted as the file has them.
+  // Lines are counted as they stand in the file.
   const TemporaryFile beyond(".obj", points + "f 1 2 \\\n 3\nf 1 2 9\n");
   expect_contains(message_of([&] { (void)hmps::read_surface<S>(beyond.path()); }),
                   "line 12: a face names vertex 9 but 8 vertices are in the file");
@@ -189,7 +189,7 @@ TYPED_TEST(SurfaceFile, OpenSurfacesAreReadOnRequest) {
   const auto mesh = hmps::read_surface<S>(file.path(), {.scale = 1e-3, .closed = false});
   EXPECT_EQ(mesh.triangles.size(), 11u);
   EXPECT_EQ(hmps::bounds(mesh).upper, V(V::Constant(static_cast<S>(1e-3))));
-  // What is cut off between two facets looks like an open surface.
+  // A file that is cut off between two facets looks like an open surface.
   const TemporaryFile cut(".stl", bytes.substr(0, bytes.rfind("endsolid")));
   expect_contains(message_of([&] { (void)hmps::read_surface<S>(cut.path(), {.closed = false}); }),
                   "without 'endsolid'");
@@ -210,18 +210,18 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   expect_contains(message(".obj", "v 0 0 inf\n"), "line 1: 'inf' is not a finite number");
   expect_contains(message(".obj", "v 0 0 0\nf 1 2 3\n"), "line 2: a face names vertex 2 but 1 vertices are in");
   expect_contains(message(".obj", "v 0 0 0\nf 1 1\n"), "line 2: a face has 2 corners");
-  expect_contains(message(".obj", "v 0 0 0\nf 1 a 1\n"), "line 2: 'a' is no corner");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 a 1\n"), "line 2: 'a' is not a corner");
   expect_contains(message(".obj", "v 0 0 0\nf 0 1 1\n"), "line 2: a face names vertex 0");
   expect_contains(message(".obj", ""), "has no vertices");
   expect_contains(message(".stl", "solid a\nfacet normal 0 0 1\nvertex 1 2\n"), "line 3: a vertex has only 2");
   expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\nendfacet\n"), "line 4: a facet ends after 1 vertices");
   expect_contains(message(".stl", "solid a\nvertex 1 2 3\n"), "line 2: a vertex outside of a facet");
   expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\n"), "cut off");
-  expect_contains(message(".stl", "solid a\nfacets\n"), "line 2: 'facets' is no word");
-  expect_contains(message(".stl", "PK"), "is no STL file");
-  expect_contains(message(".stl", "solid a\nfa\xFF\x1b[2Jcet\n"), "line 2: 'fa\\xff\\x1b[2jcet' is no word");
+  expect_contains(message(".stl", "solid a\nfacets\n"), "line 2: 'facets' is not a keyword");
+  expect_contains(message(".stl", "PK"), "is not an STL file");
+  expect_contains(message(".stl", "solid a\nfa\xFF\x1b[2Jcet\n"), "line 2: 'fa\\xff\\x1b[2jcet' is not a keyword");
   expect_contains(message(".obj", "v 0 0 \x01\n"), "line 1: '\\x01' is not a finite number");
-  expect_contains(message(".obj", "v 0 0 0\nf 1 1 \xC3\n"), "line 2: '\\xc3' is no corner");
+  expect_contains(message(".obj", "v 0 0 0\nf 1 1 \xC3\n"), "line 2: '\\xc3' is not a corner");
   expect_contains(message(".obj", "\xFF\xFEv"), "UTF-16");
   expect_contains(message(".obj", "f 1 2 9999999999\n"), "line 1: a face names vertex 9999999999, more than");
   const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));

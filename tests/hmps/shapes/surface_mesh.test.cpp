@@ -41,7 +41,7 @@ TYPED_TEST(SurfaceMesh, KnowsItsVolumeAndBounds) {
   EXPECT_NEAR(hmps::volume(reversed(box)), -24, 24 * 8 * std::numeric_limits<S>::epsilon());
   EXPECT_EQ(hmps::bounds(box).lower, V(10, -1, 0));
   EXPECT_EQ(hmps::bounds(box).upper, V(12, 2, 4));
-  // Inscribed, so below the ball by the order of the square of the edge: (1.05 / 2^3)^2 / 2.
+  // Inscribed, so smaller than the ball by the order of the squared edge: (1.05 / 2^3)^2 / 2.
   const double ball = 4.0 / 3.0 * std::numbers::pi;
   const double sphere = hmps::volume(sphere_surface<S>(V(0, 0, 0), S(1), 3));
   EXPECT_LT(sphere, ball);
@@ -68,7 +68,7 @@ TYPED_TEST(SurfaceMesh, WeldingJoinsCornersAndDropsNeedles) {
   EXPECT_EQ(welded.vertices.size(), torus.vertices.size());
   EXPECT_EQ(welded.triangles.size(), torus.triangles.size());
   EXPECT_NO_THROW(hmps::require_closed(welded));
-  // Cut the first triangle at a point that lies all but on its first corner: two needles and itself.
+  // Cut the first triangle at a point that almost coincides with its first corner: into two needles and itself.
   auto needles = torus;
   const auto [a, b, c] = needles.triangles[0];
   const auto p = static_cast<hmps::Index>(needles.vertices.size());
@@ -118,9 +118,8 @@ TYPED_TEST(SurfaceMesh, SaysWhichTrianglesAreThereTwice) {
   const auto box = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
   const auto message = [](const auto& mesh) { return message_of([&] { hmps::require_closed(mesh); }); };
   auto one_twice = box;
-  one_twice.triangles.push_back({2, 1, 0});  // the first one, {0, 2, 1}, begun elsewhere
-  EXPECT_NE(message(one_twice).find("13 triangles, of which 1 are there already"), std::string::npos)
-      << message(one_twice);
+  one_twice.triangles.push_back({2, 1, 0});  // the first one, {0, 2, 1}, from another corner
+  EXPECT_NE(message(one_twice).find("13 triangles, of which 1 are repeated"), std::string::npos) << message(one_twice);
   auto all_twice = box;
   all_twice.triangles.insert(all_twice.triangles.end(), box.triangles.begin(), box.triangles.end());
   EXPECT_NE(message(all_twice).find("24 triangles, of which 12"), std::string::npos) << message(all_twice);
@@ -132,7 +131,7 @@ TYPED_TEST(SurfaceMesh, SaysWhichTrianglesAreThereTwice) {
   const auto both_sides = hmps::weld(joined(box, reversed(box)));
   EXPECT_NE(message(both_sides).find("a part of 24 triangles"), std::string::npos) << message(both_sides);
   EXPECT_NE(message(both_sides).find("double-sided"), std::string::npos);
-  // Beside a sound body too: the part would be missing without a word.
+  // Also beside a sound body, where the part would be missing silently.
   const auto part = joined(box_surface<S>(V(4, 0, 0), V(5, 1, 1)), both_sides);
   EXPECT_NE(message(part).find("a part of 24 triangles"), std::string::npos) << message(part);
   // A single triangle in both orientations, whose edges have two triangles as they should.
@@ -147,11 +146,11 @@ TYPED_TEST(SurfaceMesh, PartsMayShareTriangles) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));
-  // Face to face: the wall between them is there in both senses.
+  // Face to face: the wall between them occurs in both orientations.
   const auto beside = hmps::weld(joined(box, box_surface<S>(V(0, 0, 1), V(1, 1, 2))));
   EXPECT_EQ(beside.vertices.size(), 12u);
   EXPECT_NO_THROW(hmps::require_closed(beside));
-  // One in the other on the same ground, which is there twice in one sense and cannot be spared once.
+  // One in the other on the same base, which occurs twice in the same orientation and is needed both times.
   const auto within = hmps::weld(joined(box, box_surface<S>(V(0, 0, 0), V(1, 1, 2))));
   EXPECT_EQ(within.vertices.size(), 12u);
   EXPECT_NO_THROW(hmps::require_closed(within));

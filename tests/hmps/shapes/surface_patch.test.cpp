@@ -49,12 +49,12 @@ TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
     EXPECT_NO_THROW(require_closed(fine));
     EXPECT_NEAR(area(fine), 22, 1e-12);
     EXPECT_NEAR(volume(fine), 6, 1e-12);
-    // Edges are halved, so that they do not become much shorter than asked for either.
+    // Edges are halved, so that they do not become much shorter than necessary either.
     EXPECT_LT(static_cast<double>(fine.triangles.size()), 16 * 22 / (longest * longest));
   }
   const auto same = refine(brick(), 10);
   EXPECT_EQ(same.triangles, brick().triangles);
-  // Of uneven triangles too, with one, two and three long edges.
+  // Also with uneven triangles that have one, two and three long edges.
   const auto torus = refine(hmps_test::torus_surface<double>(3, 1, 40, 5), 0.4);
   EXPECT_LE(longest_edge(torus), 0.4);
   EXPECT_NO_THROW(require_closed(torus));

@@ -32,7 +32,7 @@ template <class S>
   return mesh;
 }
 
-/// An icosahedron whose faces were cut in four `levels` times, on the sphere.
+/// An icosahedron whose faces are cut in four `levels` times, with all vertices on the sphere.
 template <class S>
 [[nodiscard]] hmps::SurfaceMesh<S> sphere_surface(const hmps::Vector<S, 3>& centre, S radius, int levels) {
   const double g = std::numbers::phi;
@@ -74,7 +74,7 @@ template <class S>
   return mesh;
 }
 
-/// A torus around the axis z of `n` by `m` quads cut in two.
+/// A torus around the z axis, of `n` by `m` quads cut in two.
 template <class S>
 [[nodiscard]] hmps::SurfaceMesh<S> torus_surface(S ring, S radius, hmps::Index n, hmps::Index m) {
   hmps::SurfaceMesh<S> mesh;
@@ -111,7 +111,7 @@ template <class S>
   return mesh;
 }
 
-/// A file in a temporary folder of its own, removed at the end of its life.
+/// A file in a temporary folder of its own, which is removed with the object.
 class TemporaryFile {
  public:
   TemporaryFile(std::string_view ending, std::string_view bytes) {

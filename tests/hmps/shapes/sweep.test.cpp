@@ -35,7 +35,7 @@ TYPED_TEST(Sweep, SuperellipseIsItsLevelSetAndFirstOrderBesideIt) {
     EXPECT_NEAR(hmps::superellipse(S(2.5), S(0), a, b, n), S(0.5), S(1e-5));
     EXPECT_NEAR(hmps::superellipse(S(0), S(-0.25), a, b, n), S(-0.75), S(1e-5));
   }
-  // Small sizes must not underflow: metres of millimetres to a high power.
+  // Small sizes must not underflow: millimetres in metres, to a high power.
   EXPECT_NEAR(hmps::superellipse(S(1.5e-3), S(0), S(1e-3), S(2e-3), S(12)), S(0.5e-3), S(1e-8));
 }
 

@@ -16,7 +16,7 @@ using V = hmps::Vector<double, 3>;
 using namespace hmps_test;
 
 TEST(TriangleTree, MayHoldOneFlatTriangle) {
-  // It was skipped, and the distance infinite.
+  // The triangle used to be skipped, so that the distance was infinite.
   const hmps::SurfaceMesh<double> sliver{{V(0, 0, 0), V(0, 0, 0), V(1, 0, 0)}, {{0, 1, 2}}};
   EXPECT_EQ(hmps::TriangleTree(sliver).distance(V(0.5, 1, 0)), 1);
 }
@@ -50,7 +50,7 @@ TEST(TriangleTree, WindsOnceAroundTheInside) {
   for (const V& x : random_points(200, 3)) {
     const double whole = hmps::inside(torus, x) ? 1 : 0;
     EXPECT_NEAR(exact.winding_number(x), whole, 1e-12);
-    // What is left out is of the third order, 2^-3 of a group's share; far from what would move the limit at 1/2.
+    // The terms left out are of the third order, 2^-3 of a group's share: far too little to matter at the limit of 1/2.
     EXPECT_NEAR(tree.winding_number(x), whole, 0.02);
   }
   EXPECT_NEAR(hmps::TriangleTree(reversed(torus)).winding_number(V(2, 0, 0)), -1, 0.02);
@@ -67,7 +67,7 @@ TEST(TriangleTree, ApproximatesBetterWithAccuracy) {
       result = std::max(result, std::abs(tree.winding_number(x) - exact.winding_number(x)));
     return result;
   };
-  // The first term that is left out falls as the cube of the accuracy: by 64 here, of which half is asked for.
+  // The first term that is left out falls as the cube of the accuracy: by 64 here, of which the test requires half.
   const double coarse = worst(2);
   EXPECT_GT(coarse, 0);
   EXPECT_LT(coarse, 0.02);

@@ -118,14 +118,14 @@ TEST(MeanDilatationTwice, ForceIsTheGradientOfTheEnergy) {
   expect_minus_gradient<2>(f, x, energy, scene.spacing, Tolerance<double, 2>(scene).elastic);
 }
 
-// And the particles that move get the same bits too.
+// The particles that move also get the same bits.
 TEST(MeanDilatationTwice, IsTheSameForTheParticlesThatMove) {
   scenes::Scene<2> scene;
   scene.reference = scenes::box<2>({80, 7});
   scenes::move(scene);
   const auto bonds = make_bonds<hmps::BondList<double, 2>>(scene);
   auto force = hmps::internal_force(bonds, hmps::mean_dilatation<2>(1e5));
-  auto restricted = force;  // before the other leaves numbers in its scratch memory
+  auto restricted = force;  // copied before `force` leaves numbers in its scratch memory
   Vectors<2> all(scene.x.size()), some(all);
   force(hmps::vectors(scene.x), hmps::vectors(all));
   const auto moves = [&](std::size_t i) { return scene.reference[i][0] < 20 * scene.spacing; };
@@ -137,7 +137,7 @@ TEST(MeanDilatationTwice, IsTheSameForTheParticlesThatMove) {
     }
 }
 
-// Where all particles are strained alike theta is J - 1: shared between law and mean, a bulk modulus gives the same
+// Where all particles are strained alike, theta is J - 1: a bulk modulus shared between law and mean gives the same
 // force as in the law alone.
 TYPED_TEST(MeanDilatation, SharesTheBulkModulusOfAUniformStrain) {
   constexpr int D = TypeParam::dimension;
@@ -171,7 +171,7 @@ TYPED_TEST(MeanDilatation, IsTheSameForTheParticlesThatMove) {
   auto force =
       hmps::internal_force(bonds, hmps::artificial(2e4), hmps::mean_dilatation(1e5), hmps::viscous(1000, 2e-3));
   Vectors<D> all(scene.x.size()), some(all);
-  auto restricted = force;  // before the other leaves numbers in its scratch memory
+  auto restricted = force;  // copied before `force` leaves numbers in its scratch memory
   force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(all));
   const auto moves = [&](std::size_t i) { return scene.reference[i][0] < 20 * scene.spacing; };
   restricted.restrict_to(moves);

@@ -25,8 +25,8 @@ TEST(ShearWaveModulus, IsFourThirdsOfTheShearModulus) {
   EXPECT_FLOAT_EQ(hmps::shear_wave_modulus(3.0F), 4.0F);
 }
 
-// With it the frequency of long shear waves inside a body is exact to fourth order, with others to second, whatever the
-// radius and the direction.
+// With this modulus the frequency of long shear waves inside a body is exact to fourth order, with others to second,
+// whatever the radius and the direction.
 TEST(ShearWaveModulus, RaisesTheOrderOfShearWavesFromTwoToFour) {
   for (const double radius : {1.75, 2.3}) {
     const int reach = 2 * static_cast<int>(radius);
@@ -78,7 +78,7 @@ TEST(ShearWaveModulus, BendsSheetsOfThreeParticlesAndMoreWithinTwoPerCent) {
     }
 }
 
-// Motions of a few spacings cost energy, where without a stabiliser some cost none; and no motion is stiffer than with
+// Motions of a few spacings cost energy, while without a stabiliser some cost none; and no motion is stiffer than with
 // the paper's E, so that the stable step is no smaller.
 TEST(ShearWaveModulus, LeavesNoSpuriousModeAndNoSmallerStep) {
   for (const double bulk : {3.0, 300.0})

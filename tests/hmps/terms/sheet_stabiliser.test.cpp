@@ -15,7 +15,7 @@ namespace sheet_stabiliser_test {
 
 using namespace sheets;
 
-/// Calls `use(terms...)` with the internal forces of a sheet of unit shear modulus that are chosen.
+/// Calls `use(terms...)` with the internal forces that are chosen for a sheet of unit shear modulus.
 template <class Use>
 auto with_chosen(int layers, double bulk, Use&& use) {
   const auto [modulus, share] = hmps::sheet_stabiliser(layers, bulk, 1.0);
@@ -25,7 +25,7 @@ auto with_chosen(int layers, double bulk, Use&& use) {
   return use(stabiliser, law);
 }
 
-/// Bending waves in a sheet: the error of their frequency, without unit.
+/// Bending waves in a sheet: the relative error of their frequency.
 class Bending {
  public:
   Bending(int layers, double bulk) : sheet_(layers, 1.75, bonds), h_(layers), bulk_(bulk) {}
@@ -42,8 +42,8 @@ class Bending {
 
 const Vector along_x(1, 0, 0), diagonal(1, 1, 0);
 
-// Sheets of two particles and of any number above bend as they should, where without a mean dilatation those of an even
-// number lock. Prints the table in docs/theory.md.
+// Sheets of two or more particles bend as they should, while without a mean dilatation those of an even number lock.
+// Prints the table in docs/theory.md.
 TEST(SheetStabiliser, LetsNoSheetLock) {
   std::printf(
       "| kappa/mu | layers | without | mean dilatation | 45 degrees | k h = 1.5 | E_hat = mu | 3/2 mu | chosen |\n"
@@ -64,7 +64,7 @@ TEST(SheetStabiliser, LetsNoSheetLock) {
       std::printf("| %.0f | %d | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f | %+.1f |\n", bulk, layers,
                   100 * without, 100 * with, 100 * turned, 100 * averaged(1.5, along_x, modulus),
                   100 * averaged(slender, along_x, 1), 100 * averaged(slender, along_x, 1.5), 100 * chosen);
-      // What one choice for all reaches, and that for this number of layers.
+      // The errors with one choice for all sheets, and with the choice for this number of layers.
       const double bound = layers > 2 ? 0.045 : bulk < 10 ? 0.08 : 0.052;
       EXPECT_LT(std::abs(with), bound) << bulk << ' ' << layers;
       EXPECT_LT(std::abs(turned), bound) << bulk << ' ' << layers;
@@ -76,7 +76,7 @@ TEST(SheetStabiliser, LetsNoSheetLock) {
   }
 }
 
-// Between the ratios of the table too, and where the choice changes.
+// Also between the ratios of the table, and where the choice changes.
 TEST(SheetStabiliser, HoldsForEveryBulkModulus) {
   for (const double bulk : {3.5, 4.0, 4.99, 7.0, 9.99, 12.0, 14.99, 50.0, 99.9, 150.0, 200.0})
     for (const int layers : {2, 3, 4, 6}) {
@@ -89,7 +89,7 @@ TEST(SheetStabiliser, HoldsForEveryBulkModulus) {
     }
 }
 
-// Motions of a few spacings cost energy still, and none is stiffer than with the paper's E_hat = E.
+// Motions of a few spacings still cost energy, and none is stiffer than with the paper's E_hat = E.
 TEST(SheetStabiliser, LeavesNoSpuriousModeAndNoSmallerStep) {
   const double pi = std::acos(-1.0);
   for (const double bulk : {3.0, 20.0, 300.0})

@@ -25,7 +25,7 @@ using Complex = std::complex<double>;
 inline hmps::LinearElastic<double> material(double bulk) { return {bulk - 2.0 / 3, 1}; }
 
 /// An infinite sheet of `layers` particles as plane waves see it: the stiffness of the waves exp(i k.x), from the
-/// forces of the library on one column of particles amid a patch that holds all which act on it.
+/// forces of the library on one column of particles in the middle of a patch that holds all particles that act on it.
 class Sheet {
  public:
   /// The force on a particle depends on those at up to `bonds` bonds from it: two, four with a mean dilatation.
@@ -37,7 +37,7 @@ class Sheet {
     bonds_.emplace_back(hmps::vectors(points_), hmps::BondSettings{.spacing = 1, .radius_ratio = radius});
   }
 
-  /// Of a sheet with these internal forces.
+  /// The stiffness of a sheet with these internal forces.
   template <class... Terms>
   [[nodiscard]] Eigen::MatrixXcd stiffness(const Vector& k, const Terms&... terms) const {
     auto force = hmps::internal_force(bonds_[0], terms...);
@@ -62,7 +62,7 @@ class Sheet {
     return (K + K.adjoint()) / 2;
   }
 
-  /// Frequency of the bending wave, times the square root of rho: of the mode whose particles move across most.
+  /// Frequency of the bending wave, the mode whose particles move most across the sheet, times the square root of rho.
   template <class... Terms>
   [[nodiscard]] double bending(const Vector& k, const Terms&... terms) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> modes(stiffness(k, terms...));
@@ -78,7 +78,7 @@ class Sheet {
   }
 
  private:
-  static constexpr double amplitude = 1e-6;  // what is quadratic in it is as small as the rounding
+  static constexpr double amplitude = 1e-6;  // terms quadratic in it are as small as the rounding
   std::size_t layers_;
   int reach_;
   std::vector<Vector> points_;
@@ -91,7 +91,7 @@ inline double plate(double k, double h, double bulk) {
     const double a = std::sqrt(k * k - omega * omega / (bulk + 4.0 / 3)), b = std::sqrt(k * k - omega * omega);
     return std::tanh(b * h / 2) * 4 * k * k * a * b - std::tanh(a * h / 2) * std::pow(k * k + b * b, 2);
   };
-  // At omega = 0 the two terms are equal, below the root the first is the smaller one or the larger one throughout.
+  // At omega = 0 the two terms are equal. Below the root the first one is smaller throughout or larger throughout.
   double low = 1e-3 * k * k * h, high = k * (1 - 1e-12);
   EXPECT_LT(difference(low) * difference(high), 0);
   for (int n = 0; n < 200; ++n) {

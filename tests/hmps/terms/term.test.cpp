@@ -133,7 +133,7 @@ struct OwnLaw {
   }
 };
 
-// Each of them gave a force that is NaN, that feeds on motion, or that turns the body.
+// Each of these used to give a force that is NaN, that feeds on motion, or that turns the body.
 TEST(ParametersOfTerms, AreCheckedWhenTheForceIsMade) {
   std::vector<hmps::Vector<double, 2>> X;
   for (int i = 0; i < 25; ++i) X.emplace_back(i % 5, i / 5);

@@ -31,7 +31,8 @@ double modulus(int layers, double apart) {
       .moduli[0];
 }
 
-// In bulk, the modulus of a plate less the 4/3 mu of shear; all of the bulk modulus where Poisson's ratio is zero.
+// In bulk, the law keeps the modulus of a plate less the 4/3 mu of shear, and all of the bulk modulus if Poisson's
+// ratio is zero.
 TEST(ThinWallStabiliser, LeavesTheLawWhatAPlateNeeds) {
   const auto split = [](double bulk) {
     return hmps::thin_wall_stabiliser(std::vector<int>{0}, std::vector<double>{1}, 1, bulk, 1.0).bulk;
@@ -47,7 +48,7 @@ TEST(ThinWallStabiliser, LeavesTheLawWhatAPlateNeeds) {
   }
 }
 
-// Of hexagonal layers, in plane strain and as a strip. The law of bulk leaves 14 and 18 % in two layers.
+// Hexagonal layers, in plane strain and as a strip. The law of bulk leaves errors of 14 and 18 % in two layers.
 TEST(ThinWallStabiliser, ChoosesTheLawThatBendsWalls) {
   for (const double bulk : {1.0, 2.0, 5.0, 20.0, 60.0, 300.0, 2000.0})
     for (const int layers : {2, 3, 4, 8}) {
@@ -61,7 +62,7 @@ TEST(ThinWallStabiliser, ChoosesTheLawThatBendsWalls) {
     }
 }
 
-// A body with walls of two and four layers: between what either asks for.
+// A body with walls of two and four layers: the law lies between those for either wall.
 TEST(ThinWallStabiliser, WeighsTheWallsOfABody) {
   const auto law = [](const std::vector<int>& layers) {
     return hmps::thin_wall_stabiliser(layers, std::vector<double>(layers.size(), 1), 1, 5.0, 1.0).bulk.law;
@@ -72,7 +73,7 @@ TEST(ThinWallStabiliser, WeighsTheWallsOfABody) {
   EXPECT_NEAR(law({2, 2, 0}), two, 1e-12);
 }
 
-// No step from one spacing of layers to the next.
+// E_hat does not jump from one spacing of layers to the next.
 TEST(ThinWallStabiliser, FollowsTheSpacingOfTheLayers) {
   EXPECT_NEAR(modulus(3, 0.975), (modulus(3, 0.95) + modulus(3, 1)) / 2, 1e-9);
   EXPECT_NEAR(modulus(2, 0.7999999), modulus(2, 0.8000001), 1e-6);
@@ -93,7 +94,7 @@ TEST(ThinWallStabiliser, NamesWhatIsWrong) {
 }
 
 // The clamped plate of docs/fitted.md, 1.90 mm by finite elements, with two particles through it, turned by 30 degrees.
-// The choice for sheets of the lattice, held between particles, misses the bound (2.1 mm).
+// The choice for sheets of a lattice, with the clamped face between particles, misses the bound (2.1 mm).
 TEST(ThinWallStabiliser, BendsAPlateOfTwoLayers) {
   constexpr double spacing = 2.4e-3, length = 36e-3, width = 24e-3, thickness = 4.8e-3, load = 1962;
   hmps::Matrix<double, 3> turn;

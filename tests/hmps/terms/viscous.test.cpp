@@ -73,7 +73,7 @@ TEST(Viscous, RefusesImpossibleFluids) {
     const std::string text = error_of([&] { (void)hmps::viscous(1000, bad); });
     EXPECT_TRUE(has(text, "the viscosity is " + hmps::detail::message(bad) + " m2/s")) << text;
   }
-  // A number beside a view or a callable too.
+  // Also a number beside a view or a callable.
   const std::vector<double> of_each(3, 1.0);
   EXPECT_THROW((void)hmps::viscous(hmps::scalars(of_each), -2e-3), hmps::InputError);
   EXPECT_THROW((void)hmps::viscous(-1.0, [](const auto& at) { return static_cast<double>(at.index); }),

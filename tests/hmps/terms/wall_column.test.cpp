@@ -21,7 +21,7 @@ namespace wall_column_test {
 using Vector = hmps::Vector<double, 3>;
 using hmps::detail::hexagonal_column;
 
-// From a program of its own that sums the same energies over periodic sheets.
+// The values are from a separate program that sums the same energies over periodic sheets.
 TEST(WallColumn, SumsTheTwistOfHexagonalLayers) {
   EXPECT_NEAR(hexagonal_column(2, 1.0, 0.0).artificial(), 1.436, 6e-4);
   EXPECT_NEAR(hexagonal_column(2, 0.75, 0.0).artificial(), 0.934, 6e-4);
@@ -35,7 +35,7 @@ TEST(WallColumn, TwistsRightWithItsOwnModulus) {
   EXPECT_LT(column.twist(0.0), 0.9);
 }
 
-// Two layers have no way to thin on one side, and resist with all of the law's bulk modulus. Three have, and hardly do.
+// Two layers cannot thin on one side, and resist with all of the law's bulk modulus. Three can, and hardly resist.
 TEST(WallColumn, ReleasesTheThickness) {
   const auto ratio = [](int layers) {
     const auto column = hexagonal_column(layers, 1.0, 0.0);
@@ -45,7 +45,7 @@ TEST(WallColumn, ReleasesTheThickness) {
   EXPECT_LT(ratio(3), 1.15);
 }
 
-// With Poisson's ratio zero a strip bends as in plane strain; a strip of what keeps its volume is softer than a plate.
+// With Poisson's ratio zero a strip bends as in plane strain; a strip that keeps its volume is softer than a plate.
 TEST(WallColumn, BendsStripsAcross) {
   const auto column = hexagonal_column(6, 1.0, 0.14);
   const double artificial = column.artificial();
