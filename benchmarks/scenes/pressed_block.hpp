@@ -15,7 +15,7 @@ namespace scenes {
 struct BlockOnWall {
   std::vector<hmps::Vector<double, 3>> places = {};              ///< m
   std::size_t block = 0;                                         ///< number of particles of the block
-  std::vector<hmps::Index> bottom = {}, lower = {}, plate = {};  ///< of the block: slaves, masters, those led by a plate
+  std::vector<hmps::Index> bottom = {}, lower = {}, plate = {};  ///< of the block: slaves, masters, led by a plate
   std::vector<hmps::Index> skin = {}, wall = {};                 ///< of the wall: slaves, masters
 
   /// Adds a particle of the block. Add those of the wall after all of these.
