@@ -7,8 +7,8 @@
 For each refinement it writes a mesh of quadratic bricks (C3D20R) and its loads, NAME_N.inp, to the current folder, runs
 `ccx NAME_N` (CalculiX, which must be on the path) and reads NAME_N.dat. Otherwise it needs only Python 3.
 
-Small strains; E = 100 kPa, bulk modulus 2 MPa. The answer is the A of the displacement A p(X) that fits u best, that is,
-integral(u . p) / integral(p . p) over the volume of the body, under a load that is proportional to p. Loads on free
+Small strains; E = 100 kPa, bulk modulus 2 MPa. The answer is the A of the displacement A p(X) that fits u best, which
+is integral(u . p) / integral(p . p) over the volume of the body, under a load that is proportional to p. Loads on free
 bodies are in balance, and these bodies are held only against rigid motions. For a strip whose ends are turned, the
 answer is the torque.
 """
