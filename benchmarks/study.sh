@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# What the scripts benchmarks/NAME/run share.
+# Functions shared by the scripts benchmarks/NAME/run.
 root=$(cd "$(dirname "$0")/../.." && pwd)
 
 # build_study NAME [PACKAGE...]: installs what is missing (Debian, Ubuntu) and builds the program for this machine; also
-# the targets in $also, of the tests.
+# the targets of tests that $also lists.
 build_study() {
   study=$1
   shift
@@ -17,7 +17,7 @@ build_study() {
   cmake --build "$build" --target "$study" ${also:-} --parallel "$(nproc)" >&2
 }
 
-# writes_page ARGUMENT...: whether a run with these arguments of the user's is to write the page.
+# writes_page ARGUMENT...: succeeds if a run with these arguments of the user should write the page.
 writes_page() {
   for argument in "$@"; do
     case "$argument" in --quick | --list | -h | --help | --out | --out=*) return 1 ;; esac
@@ -25,8 +25,8 @@ writes_page() {
 }
 
 # run_study ARGUMENT...: runs the program that was built, which writes docs/measured/NAME.md with its pictures, and its
-# tables to results/NAME. With --quick (tables in results/NAME_quick), --list, --help or an --out of one's own the page
-# stays as it is.
+# tables to results/NAME. With --quick (tables in results/NAME_quick), --list, --help or the user's own --out, the page
+# is not changed.
 run_study() {
   program="$build/benchmarks/$study/$study"
   if writes_page "$@"; then

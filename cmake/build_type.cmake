@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# hmps_tell_build_type(): says once for each build that nothing tells the compiler to optimise. The build type stays the
-# user's own.
+# hmps_tell_build_type(): says, once for each build, if nothing tells the compiler to optimise. It does not change the
+# build type.
 function(hmps_tell_build_type)
   get_property(several GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
   get_property(told GLOBAL PROPERTY HMPS_BUILD_TYPE_TOLD)
@@ -8,6 +8,6 @@ function(hmps_tell_build_type)
     return()
   endif()
   set_property(GLOBAL PROPERTY HMPS_BUILD_TYPE_TOLD ON)
-  message(STATUS "hmps: no build type is set, so that the compiler does not optimise and the sweeps over particles take "
+  message(STATUS "hmps: no build type is set, so the compiler does not optimise, and the sweeps over particles take "
                  "two hundred times as long: configure with -D CMAKE_BUILD_TYPE=Release")
 endfunction()

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-# Eigen and nanoflann: targets that a parent project has already, else installed packages, else a
-# pinned download. The download is only unpacked, never configured, so that no option, test or
-# install rule of theirs gets into the user's build. HMPS_BUNDLED lists what was downloaded.
+# Eigen and nanoflann: targets that a parent project has already, otherwise installed packages, otherwise a pinned
+# download. The download is only unpacked, never configured, so that none of its options, tests and install rules get
+# into the user's build. HMPS_BUNDLED lists what was downloaded.
 set(HMPS_BUNDLED "")
 include(${CMAKE_CURRENT_LIST_DIR}/find.cmake)
 
-# hmps_archive(<package> <url> <variable>): downloads the archive, once, and ends with what to do about it where that is not
-# possible: FetchContent would try for more than a minute and then say no word of what is missing.
+# hmps_archive(<package> <url> <variable>): downloads the archive once. If that is not possible, it ends the
+# configuration with a message that says what to install, whereas FetchContent would try for more than a minute and not
+# say what is missing.
 function(hmps_archive package url variable)
   set(remedy "install Eigen and nanoflann (Debian, Ubuntu: apt install libeigen3-dev libnanoflann-dev; vcpkg: eigen3, nanoflann)")
   if(NOT HMPS_DOWNLOAD_DEPENDENCIES)
@@ -51,7 +52,7 @@ function(hmps_dependency package target version folder url hash)
   if(NOT FETCHCONTENT_SOURCE_DIR_${upper} AND NOT FETCHCONTENT_FULLY_DISCONNECTED)
     hmps_archive(${package} ${url} url)
   endif()
-  # There is no such sub-folder: MakeAvailable unpacks, and finds nothing to add.
+  # The folder SOURCE_SUBDIR does not exist, so MakeAvailable unpacks the archive and finds nothing to add.
   FetchContent_Declare(hmps_${package} URL ${url} URL_HASH SHA256=${hash} SOURCE_SUBDIR hmps-unpack-only)
   FetchContent_MakeAvailable(hmps_${package})
   string(TOLOWER hmps_${package} content)

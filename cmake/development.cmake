@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What our own tests, examples and benchmarks are compiled with. Only they link these targets.
+# The options with which our own tests, examples and benchmarks are compiled. Only they link these targets.
 
 add_library(hmps_development INTERFACE)
 target_link_libraries(hmps_development INTERFACE hmps::hmps)
@@ -11,14 +11,14 @@ if(HMPS_SANITIZE)
     hmps_development INTERFACE -fsanitize=${HMPS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(hmps_development INTERFACE -fsanitize=${HMPS_SANITIZE})
   if(HMPS_SANITIZE MATCHES "address" AND HMPS_SANITIZE MATCHES "undefined")
-    # What the address sanitizer sees when it happens; to look for it before each access as well takes a third of the
-    # compile time.
+    # The address sanitizer reports these errors when they happen; checking for them before each access as well takes a
+    # third of the compile time.
     target_compile_options(hmps_development INTERFACE -fno-sanitize=null,object-size,pointer-overflow,vptr)
   endif()
 endif()
 
-# What the small examples are compiled with besides: users have such flags and include these headers with -I, so that a
-# warning in the library is theirs.
+# Further warnings with which the small examples are compiled: users enable such warnings and include the headers with
+# -I, so they see every warning in the library.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(HMPS_USERS_WARNINGS -Wsign-conversion -Wdouble-promotion -Wuseless-cast -Wold-style-cast -Wnull-dereference
                           -Wextra-semi -Wzero-as-null-pointer-constant -Wundef -Wcast-qual -Wcast-align
@@ -30,26 +30,27 @@ else()
                           -Woverloaded-virtual -Wcomma -Wshadow-all -Wdeprecated -Wunreachable-code -Wformat=2)
 endif()
 
-# For what would run for minutes under the sanitizers without optimisation. All else together takes longer to compile
-# than to run, and with optimisation two and a half times as long.
+# For programs that would run for minutes under the sanitizers without optimisation. All others together take longer to
+# compile than to run, and two and a half times as long to compile with optimisation.
 add_library(hmps_long_running INTERFACE)
 if(HMPS_SANITIZE)
   target_compile_options(hmps_long_running INTERFACE -O1)
 endif()
 
-# CMake marks precompiled headers as headers of the system, in which nothing is warned of: not here.
+# By default, CMake marks precompiled headers as system headers, for which the compiler gives no warnings. Prevent that.
 set(CMAKE_PCH_PROLOGUE "")
 
 # The instruction set of this machine, for the programs whose speed matters.
 add_library(hmps_native INTERFACE)
 target_compile_options(hmps_native INTERFACE $<$<BOOL:${HMPS_NATIVE}>:-march=native>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12.3)
-  # It warns of its own header for AVX-512 (https://gcc.gnu.org/PR105593), as read without a value or perhaps so.
+  # It warns that variables in its own header for AVX-512 are or may be used uninitialized
+  # (https://gcc.gnu.org/PR105593).
   target_compile_options(hmps_native INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 
-# hmps_parsed_once(<target>): for what is compiled with hmps_development and hmps_native and nothing else that changes
-# code.
+# hmps_parsed_once(<target>): shares one precompiled header. For targets that are compiled with hmps_development and
+# hmps_native and no other option that changes code.
 function(hmps_parsed_once target)
   if(NOT TARGET hmps_parsed)
     set(empty ${PROJECT_BINARY_DIR}/hmps_parsed.cpp)
@@ -61,9 +62,9 @@ function(hmps_parsed_once target)
   target_precompile_headers(${target} REUSE_FROM hmps_parsed)
 endfunction()
 
-# hmps_unit_tests(<target> <prefix> <source>...): adds the sources to the program <target>, made and registered with
-# ctest at the first call. With HMPS_UNITY_TESTS its sources are compiled together, so that what several of them
-# instantiate is instantiated once; each has a namespace of its own for that.
+# hmps_unit_tests(<target> <prefix> <source>...): adds the sources to the program <target>, which the first call creates
+# and registers with ctest. With HMPS_UNITY_TESTS its sources are compiled together, so that templates that several of
+# them use are instantiated once; for this, each source has a namespace of its own.
 function(hmps_unit_tests target prefix)
   if(TARGET ${target})
     target_sources(${target} PRIVATE ${ARGN})
@@ -91,7 +92,7 @@ endif()
 message(STATUS "hmps: executors to be tested: serial ${HMPS_EXECUTORS}")
 list(TRANSFORM HMPS_EXECUTORS PREPEND hmps_ OUTPUT_VARIABLE HMPS_EXECUTOR_TARGETS)
 
-# What some of our programs are built with. hmps_missing(<variable> <target> ...) lists the targets that are not here.
+# Packages that some of our programs need. hmps_missing(<variable> <target> ...) lists the targets that do not exist.
 find_package(CLI11 CONFIG QUIET)
 find_package(nlohmann_json CONFIG QUIET)
 find_package(PkgConfig QUIET)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Target docs: the API reference by Doxygen, any warning of which is an error.
+# Target docs: the API reference by Doxygen. Every warning of Doxygen is an error.
 find_package(Doxygen QUIET)
 if(DOXYGEN_FOUND)
   configure_file(docs/Doxyfile.in ${PROJECT_BINARY_DIR}/Doxyfile @ONLY)

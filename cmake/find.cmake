@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # hmps_find(<package> <target> <version>): the first package on the user's search path of that version or a later one.
-# Not by a request for it: Eigen 5 refuses one for 3.4, which would then be taken from further down the path, and
-# Eigen 3.4 refuses a range that goes on to 5. So no version that there is is asked for, which lists those there are.
+# It does not request <version> from find_package: Eigen 5 refuses a request for 3.4, which would then be taken from
+# further down the path, and Eigen 3.4 refuses a range that includes 5. Instead it requests a version that does not
+# exist, and find_package then lists the versions that do.
 macro(hmps_find package target version)
   if(NOT TARGET ${target})
     find_package(${package} 9999 CONFIG QUIET)

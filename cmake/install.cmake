@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Installs the headers, the CMake package and the pkg-config file. What was downloaded for want of an installed package
-# is installed beside it, so that the package also works where Eigen or nanoflann is still missing.
+# Installs the headers, the CMake package and the pkg-config file. If Eigen or nanoflann was downloaded because no
+# package was installed, its headers are installed too, so that the package of hmps works without them.
 include(CMakePackageConfigHelpers)
 
 set(HMPS_CMAKE_DIR ${CMAKE_INSTALL_DATADIR}/cmake/hmps)
@@ -9,7 +9,8 @@ set(HMPS_BUNDLE_DIR ${CMAKE_INSTALL_DATADIR}/hmps/third_party)
 install(TARGETS hmps EXPORT hmpsTargets)
 install(DIRECTORY include/hmps DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(EXPORT hmpsTargets NAMESPACE hmps:: DESTINATION ${HMPS_CMAKE_DIR})
-# For parents that export() a target of theirs from the build tree. A parent's own Eigen would have to be in such a set too.
+# For parent projects that export() a target of theirs from the build tree. An Eigen that the parent defines itself
+# would have to be in such an export set too.
 get_target_property(HMPS_EIGEN_IS_PACKAGE Eigen3::Eigen IMPORTED)
 get_target_property(HMPS_NANOFLANN_IS_PACKAGE nanoflann::nanoflann IMPORTED)
 if(HMPS_EIGEN_IS_PACKAGE AND HMPS_NANOFLANN_IS_PACKAGE)
@@ -26,7 +27,7 @@ write_basic_package_version_file(hmpsConfigVersion.cmake COMPATIBILITY SameMinor
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hmpsConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/hmpsConfigVersion.cmake
               cmake/build_type.cmake cmake/find.cmake DESTINATION ${HMPS_CMAKE_DIR})
 
-# hmps.pc tells folders from where it lies, so that the installed tree can be moved.
+# hmps.pc gives folders relative to its own, so that the installed tree can be moved.
 set(HMPS_PC_DIR ${CMAKE_INSTALL_DATADIR}/pkgconfig)
 file(RELATIVE_PATH HMPS_PC_PREFIX ${CMAKE_INSTALL_FULL_DATADIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH HMPS_PC_INCLUDE ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})

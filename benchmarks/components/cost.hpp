@@ -11,11 +11,12 @@
 #include "hmps/laws/law.hpp"
 
 /// What a particle costs: floating-point operations and bytes moved, counted from the equations and the arrays, not
-/// measured. A multiplication, an addition, a division and a root are one operation each, a multiply-add two. They are
-/// those of the sums as docs/theory.md writes them, over the bonds that exist: what a kernel saves by symmetry and what
-/// it spends on empty lanes changes its time, not this count. Bytes are those of each array once for each pass over it,
-/// as if neighbours were always found in a cache and no two particles shared a shape tensor; a write counts once. What
-/// is gathered are the bytes that bonds read of their neighbours, which come from a cache and not from memory.
+/// measured. A multiplication, an addition, a division and a root are one operation each, a multiply-add two. The
+/// operations are those of the sums as written in docs/theory.md, over the bonds that exist: savings of a kernel by
+/// symmetry and its work on empty lanes change its time, not this count. The bytes of each array count once for each
+/// pass over it, as if neighbours were always found in a cache and no two particles shared a shape tensor; a write
+/// counts once. Gathered bytes are those that bonds read of their neighbours, which come from a cache and not from
+/// memory.
 namespace bench {
 
 struct Cost {
@@ -25,7 +26,7 @@ struct Cost {
   }
 };
 
-/// A number that counts what is done to it.
+/// A number that counts the operations applied to it.
 struct Counted {
   double value;
   static inline std::size_t operations = 0;
@@ -45,7 +46,7 @@ struct Counted {
   friend Counted inverse_cube_root(Counted x) { return ++operations, Counted(hmps::inverse_cube_root(x.value)); }
 };
 
-/// Operations of the stress of one particle by `law`, a root being one.
+/// Number of operations for the stress of one particle by `law`; a root counts as one.
 template <class Law>
 [[nodiscard]] double stress_flop(const Law& law) {
   hmps::Matrix<Counted, 3> F;
@@ -55,7 +56,7 @@ template <class Law>
   return static_cast<double>(Counted::operations);
 }
 
-/// The cost of the parts of a step of particles that are bonded by `bonds`, with a state in `S`, all per particle.
+/// The costs of the parts of a step, per particle, for particles bonded by `bonds` with a state of scalar type `S`.
 template <class S, class B>
 class StepCost {
  public:
@@ -64,7 +65,7 @@ class StepCost {
         bond_bytes_(static_cast<double>(b.bytes() - b.hmps::template Blocks<K, 3>::bytes()) /
                     static_cast<double>(b.size())) {}
 
-  /// Reads positions and their reference, keeps displacements.
+  /// Reads positions and reference positions, stores displacements.
   [[nodiscard]] Cost stage_positions() const { return {6, 3 * s + 24 + 3 * k}; }
   [[nodiscard]] Cost stage_velocities() const { return {0, 3 * s + 3 * k}; }
   /// (11): per bond three differences, times w, times r0; per particle times A^-1, plus 1.
@@ -76,8 +77,8 @@ class StepCost {
   }
   /// (19, 20) in the first sweep: C = E d / tr A, M - C F, c + C.
   [[nodiscard]] Cost artificial() const { return {1 + 18 + 1, k}; }
-  /// Writes M and c; the second sweep reads them, with displacements and the stored sum of w r0: per bond c_i + c_j,
-  /// its product with three differences, M r0, and all of it times w.
+  /// Writes M and c; the second sweep reads them, with displacements and the stored sum of w r0. Per bond: c_i + c_j,
+  /// its product with three differences, M r0, and the sum of all times w.
   [[nodiscard]] Cost couple() const {
     return {3 + 31 * bonds_ + 18, 10 * k + 10 * k + 3 * k + 3 * k + bond_bytes_, 13 * k * bonds_};
   }
@@ -90,7 +91,7 @@ class StepCost {
   [[nodiscard]] static Cost kick() { return {6, 9 * s}; }
   [[nodiscard]] static Cost drift() { return {6, 9 * s}; }
 
-  /// The step that is measured: all three forces, kick and drift.
+  /// The complete step that is measured: all three forces, kick and drift.
   template <class Law>
   [[nodiscard]] Cost step(const Law& law) const {
     return stage_positions() + stage_velocities() + gradient() + elastic(law) + artificial() + couple() + viscous() +

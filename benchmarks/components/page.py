@@ -30,7 +30,7 @@ def read(path):
 
 
 def processor():
-    """Its name, and the name of its widest registers or None."""
+    """The name of the processor, and that of its widest registers or None."""
     entries = (line.split(":", 1) for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines() if ":" in line)
     about = {key.strip(): value.strip() for key, value in entries}
     flags = about.get("flags", "").split()
@@ -45,7 +45,7 @@ def machine():
 
 
 def digits(value, count=3):
-    """A number in `count` digits, without an exponent."""
+    """A number with `count` digits, without an exponent."""
     text = f"{float(f'{value:.{count}g}'):.10f}".rstrip("0").rstrip(".")
     return text if text else "0"
 
@@ -59,7 +59,7 @@ class Page:
         self.runs, self.context, self.scatter = runs, context, scatter
 
     def rate(self, name):
-        """Items per second in millions, or None where it was not run."""
+        """Items per second in millions, or None if the benchmark was not run."""
         return self.runs[name]["items_per_second"] * 1e-6 if name in self.runs else None
 
     def nanoseconds(self, name):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The limits of one core, with which the step is compared:
+// The limits of one core with which the step is compared:
 //
 //   roofline/fma/KIND/CHAINS   multiply-adds in registers, so many lanes side by side (see peak_flop); the counter FLOP
 //                              is operations per second
@@ -49,7 +49,7 @@ constexpr const char* compiler = "clang++ " __clang_version__;
 constexpr const char* compiler = "g++ " __VERSION__;
 #endif
 
-/// Threads of other processes that run at this moment, where the system tells.
+/// Threads of other processes that are running at this moment, if the system provides the number.
 int others_running() {
   std::ifstream file("/proc/loadavg");
   double load[3];

@@ -10,8 +10,8 @@
 #include "components/cost.hpp"
 #include "hmps/lanes/lanes.hpp"
 
-/// The limits of one core that the time of a kernel is compared with: multiply-adds, memory traffic, and what a bond
-/// reads of its neighbours, measured by code as portable as the library's.
+/// The limits of one core with which the time of a kernel is compared: multiply-adds, memory traffic, and the reading
+/// of neighbours by bonds, measured by code that is as portable as that of the library.
 namespace bench {
 
 /// `rounds` times `chains` independent multiply-adds of 64 bytes each from `start` on; returns a number that depends on
@@ -35,8 +35,8 @@ template <class T, int chains>
   return 2. * chains * hmps::Lanes<T>::width * static_cast<double>(rounds);
 }
 
-/// Sums of 64 bytes each from places that are not aligned, in an array that fits into the first-level cache: as bonds
-/// read the values of neighbours that follow each other.
+/// Sums of 64 bytes each from unaligned addresses in an array that fits into the first-level cache. Bonds read the
+/// values of consecutive neighbours in this way.
 template <class T>
 class Gather {
  public:
@@ -74,8 +74,8 @@ class Triad {
   std::vector<double> a_, b_, c_;
 };
 
-/// Work per second of the processor by `run()`, which does `work` each time: the best of several tries of a few
-/// milliseconds.
+/// Work per second of processor time by `run()`, each call of which does the amount `work`: the best of several trials
+/// of a few milliseconds.
 template <class Run>
 [[nodiscard]] double best_rate(double work, Run&& run) {
   run();
@@ -99,8 +99,8 @@ template <class T>
 [[nodiscard]] double peak_flop() {
   static const double peak = [] {
     constexpr std::size_t rounds = 20000;
-    volatile T number = 0;  // what the compiler must not know
-    // Few chains do not hide the latency where there are many units, many do not fit where there are few registers.
+    volatile T number = 0;  // hides the value from the compiler
+    // Few chains do not hide the latency if the core has many units; many chains do not fit if it has few registers.
     return std::max(best_rate(multiply_add_flop<T, 6>(rounds), [&] { number = multiply_add<T, 6>(rounds, number); }),
                     best_rate(multiply_add_flop<T, 12>(rounds), [&] { number = multiply_add<T, 12>(rounds, number); }));
   }();
@@ -116,7 +116,7 @@ template <class T>
   return measured[bytes] = best_rate(triad.bytes(), triad);
 }
 
-/// Bytes per second that bonds can read of their neighbours; measured at the first call.
+/// Bytes of their neighbours that bonds can read per second; measured at the first call.
 template <class T>
 [[nodiscard]] double gather_rate() {
   static const double rate = [] {
@@ -129,7 +129,7 @@ template <class T>
   return rate;
 }
 
-/// Items per second that neither multiply-adds nor memory allow to be exceeded, for items of `cost` on numbers `T` in a
+/// The most items per second that multiply-adds and memory allow, for items of `cost` with numbers of type `T` in a
 /// working set of `bytes`.
 template <class T>
 [[nodiscard]] double attainable(const Cost& cost, std::size_t bytes) {

@@ -11,13 +11,13 @@
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
 
-/// What the benchmarks of forces share.
+/// Functions shared by the benchmarks of forces.
 namespace bench {
 
 inline const hmps::MooneyRivlin<> tissue = hmps::MooneyRivlin<>::from_young(young, d1);
 
-/// Calls `advance(x, v, f, execute)` on a box, again and again. `make(bonds)` is called once and gives what is
-/// measured, `cost(StepCost)` what it costs.
+/// Calls `advance(x, v, f, execute)` on a box repeatedly. `make(bonds)` is called once and returns the `advance` that
+/// is measured; `cost(StepCost)` returns its cost.
 template <class Bonds, class S, class Executor, class Make, class CostOf>
 void measure(benchmark::State& run, const Box& box, const Executor& execute, const Make& make, const CostOf& cost) {
   State<S> state(box);

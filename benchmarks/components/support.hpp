@@ -18,7 +18,8 @@
 #include "hmps/executors/openmp.hpp"
 #endif
 
-/// What the benchmarks share: a box of soft tissue and its state, and how a benchmark is named and counted.
+/// What all benchmarks share: a box of soft tissue and its state, and functions that name benchmarks and set their
+/// counters.
 namespace bench {
 
 inline constexpr double spacing = 1.2e-3, time_step = 1e-5, density = 1000, viscosity = 2e-3, young = 20e3, d1 = 1e6;
@@ -88,7 +89,7 @@ template <class K, class S>
   return std::is_same_v<K, S> ? name_of<K>() : "mixed";
 }
 
-/// Says that each iteration did `items` items, at `cost` each, of which what is zero was not counted.
+/// Reports that each iteration processed `items` items at `cost` each. Zero members of `cost` are not reported.
 inline void count(benchmark::State& run, std::size_t items, const Cost& cost) {
   const double done = static_cast<double>(run.iterations()) * static_cast<double>(items);
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(items));
@@ -96,8 +97,8 @@ inline void count(benchmark::State& run, std::size_t items, const Cost& cost) {
   if (cost.flop > 0) run.counters["FLOP"] = benchmark::Counter(done * cost.flop, benchmark::Counter::kIsRate);
 }
 
-/// Registers `name/THREADS`, that is `measure(run, executor)`, for one thread, by the time of the processor, and for as
-/// many as there are, by the clock.
+/// Registers `measure(run, executor)` as `name/THREADS`: for one thread, timed by processor time, and for more threads,
+/// timed by the clock.
 template <class Measure>
 void add_threads(const std::string& name, const Measure& measure, benchmark::TimeUnit unit = benchmark::kMillisecond) {
   benchmark::RegisterBenchmark((name + "/1").c_str(), [measure](benchmark::State& run) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The free bar of benchmarks/verification, which twists to and fro, in any direction.
+// The free bar of benchmarks/verification in torsional vibration, at any orientation.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A wide strip that is bent by large angles in plane strain (Rivlin's flexure), in any direction.
+// A wide strip that is bent by large angles in plane strain (Rivlin's flexure), at any orientation.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,16 +11,17 @@ namespace fitted {
 namespace {
 
 constexpr double wall = 4.8e-3;            // m
-constexpr double free_length = 12 * wall;  // m; the ends still matter at half of it, by 1 to 2 %
+constexpr double free_length = 12 * wall;  // m; at half of it the ends still have an effect of 1 to 2 %
 constexpr double spacings_held = 4, spacings_wide = 8;
 
-/// Flexure of a strip in plane strain: what was at x along the strip and z across it, from -wall / 2 on the inner side,
-/// goes to the radius r(z) and the angle `turn` x. Both faces are free. By integration across the wall.
+/// Flexure of a strip in plane strain: the point at x along the strip and z across it, where z is -wall / 2 on the
+/// inner side, moves to the radius r(z) and the angle `turn` x. Both faces are free. Computed by integration across the
+/// wall.
 class Flexure {
  public:
   /// `turn` is the angle in rad per m of the strip.
   Flexure(const hmps::MooneyRivlin<>& law, double turn) : law_(law), turn_(turn) {
-    // The inner radius at which the outer face is free: secants from that of an incompressible law.
+    // The inner radius at which the outer face is free, by the secant method from that of an incompressible law.
     const double first = std::exp(-std::asinh(wall * turn) / 2) / turn;
     std::array<double, 2> inner{0.99 * first, 1.01 * first}, stress{integrate(inner[0]), integrate(inner[1])};
     for (int k = 0; k < 30 && std::abs(inner[1] - inner[0]) > 1e-13 * first; ++k) {
@@ -34,7 +35,7 @@ class Flexure {
   [[nodiscard]] double moment() const { return moment_; }
   /// The strain energy per length and width in J/m2.
   [[nodiscard]] double energy() const { return energy_; }
-  /// Where a point of the strip goes, in m; the middle of the strip stays at the origin.
+  /// The position of a point of the bent strip, in m; the middle of the strip stays at the origin.
   [[nodiscard]] Vector operator()(const Vector& X) const {
     const double angle = turn_ * X[0], r = radius(X[2]);
     return {r * std::sin(angle), X[1], r * std::cos(angle) - radius(0)};
@@ -54,7 +55,8 @@ class Flexure {
     return Vector(around, 1, radial).asDiagonal();
   }
 
-  /// Derivatives across the wall: equilibrium d(P_r)/dz = turn P_around, and what the moment and the energy sum up.
+  /// Derivatives across the wall: equilibrium d(P_r)/dz = turn P_around, and the integrands of the moment and the
+  /// energy.
   [[nodiscard]] Section slope(const Section& at) const {
     const double around = turn_ * at.radius;
     double radial = 1 / around;
@@ -71,7 +73,7 @@ class Flexure {
     return {radial, turn_ * along, along * at.radius, hmps::energy_density(law_, F)};
   }
 
-  /// Integrates from the free inner face (Runge and Kutta). Returns the stress at the outer one.
+  /// Integrates from the free inner face by a Runge-Kutta method. Returns the stress at the outer face.
   double integrate(double inner) {
     Section at{inner, 0, 0, 0};
     constexpr double dz = wall / steps;
@@ -100,7 +102,8 @@ class Flexure {
 
 [[nodiscard]] hmps::MooneyRivlin<> material() { return hmps::MooneyRivlin<>::from_young(100e3, 1e6); }
 
-/// Whether `Flexure` has the moment that its energy asks for, and for a nearly incompressible law Rivlin's own.
+/// Whether the moment of `Flexure` is the derivative of its energy and, for a nearly incompressible law, that of
+/// Rivlin.
 [[nodiscard]] bool agrees_with_rivlin(double turn) {
   constexpr double change = 1e-4;
   const hmps::MooneyRivlin<> law = material();
@@ -115,9 +118,9 @@ class Flexure {
 }
 
 /// The bending moment over the exact one, at `turn` rad per m. All particles start where the exact solution has them.
-/// Those of one end stay there. Those of the other end move together without turning, so that nothing pulls at them.
-/// Those of the narrow sides stay in their planes. The moment is that of the forces on an end, which at rest is the
-/// derivative of the energy by the angle between the ends.
+/// Those of one end stay there. Those of the other end move together without turning, so that no net force acts on
+/// them. Those of the narrow sides stay in their planes. The moment is that of the forces on an end, which at rest is
+/// the derivative of the energy by the angle between the ends.
 [[nodiscard]] double bend(FittedBody& body, const Placement& at, double turn, double spacing) {
   const Flexure exact(material(), turn);
   const double width = spacings_wide * spacing;

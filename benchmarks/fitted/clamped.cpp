@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clamped bodies of plates in any direction: a strip whose ends are turned, a wedge, and a plate on a web. As that of
-// plate.cpp, a clamped face goes through the middle of the outermost held particles.
+// Clamped bodies made of plates, at any orientation: a strip whose ends are turned, a wedge, and a plate on a web. As
+// in plate.cpp, a clamped face passes through the middle of the outermost held particles.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 [[nodiscard]] hmps::MooneyRivlin<> material() { return hmps::MooneyRivlin<>::from_young(100e3, 1e6); }
 [[nodiscard]] double spacing_of(int layers) { return wall / layers; }
 
-/// The torque in uN m of a strip of 72 x 18 mm along x and y, whose one end is turned about x.
+/// The torque in uN m of a strip of 72 x 18 mm along x and y, of which one end is turned about x.
 [[nodiscard]] double turned_strip(const Placement& at, int layers, bool own_volumes) {
   constexpr double length = 72e-3, width = 18e-3, angle = 0.02;
   const double l0 = spacing_of(layers), clamp = length / 2 - l0 / 2;
@@ -48,7 +48,8 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
   return -1e6 * sum.dot(at.direction(Vector(1, 0, 0)));
 }
 
-/// How far a wedge gives way, in mm. Its edge is too thin for particles, so that each carries its volume.
+/// How far a wedge gives way, in mm. Its edge is too thin for particles, so each particle carries the load of its own
+/// volume.
 [[nodiscard]] double press_wedge(const Placement& at, int layers) {
   constexpr double length = 36e-3, width = 24e-3, thin = 1.2e-3, loaded = 12e-3;
   const double l0 = spacing_of(layers), slope = (wall - thin) / (2 * length);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The epiglottis of examples/swallowing by itself, held at its root and loaded at its tip. As in clamped.cpp, the
-// clamped face goes through the middle of the outermost held particles.
+// The epiglottis of examples/swallowing alone, held at its root and loaded at its tip. As in clamped.cpp, the clamped
+// face passes through the middle of the outermost held particles.
 #include <algorithm>
 #include <cmath>
 
@@ -12,17 +12,17 @@ namespace {
 
 using swallowing::Epiglottis;
 
-// mm. The example holds what lies before the clamp.
+// mm. The example holds the part before the clamp.
 constexpr double wall = swallowing::wall, clamp = 5, held = 6, loaded = 9;
 
 // By references/bodies.py, in mm. leaf 1 to 6: 0.2618, 0.26212, 0.26444, 0.26456, 0.26484, 0.26482.
 constexpr double answer = 0.2648;
 
-/// The spacing (m): that of the example for three layers, which lie closer.
+/// The spacing (m). For three layers it is that of the example, in which the layers lie closer together than a spacing.
 [[nodiscard]] double spacing_of(int layers) { return layers == 3 ? 1.8e-3 : 1e-3 * wall / layers; }
 
-/// The length (mm) of the midline up to the point nearest to `x` (mm) in its plane. The midline is part of a circle,
-/// while `Epiglottis::arc` is that of 24 chords, which does not move at their corners on the outer side.
+/// The length (mm) of the midline up to the point nearest to `x` (mm) in its plane. The midline is part of a circle.
+/// `Epiglottis::arc` is the length along 24 chords, which stays constant at their corners on the outer side.
 [[nodiscard]] double arc_of(const Vector& x) {
   const double start = Epiglottis::angle(0),
                radius = Epiglottis::length / (start - Epiglottis::angle(Epiglottis::length));
@@ -30,8 +30,8 @@ constexpr double answer = 0.2648;
   return radius * (start - std::atan2(-from[0], from[2]));
 }
 
-/// About the signed distance (mm) to the leaf between two lengths of the midline (mm): that of the example is not one
-/// where the width changes, and knows no ends.
+/// Approximately the signed distance (mm) to the leaf between two lengths along the midline (mm). The shape of the
+/// example is not a distance where the width changes, and has no such ends.
 [[nodiscard]] double distance(const Vector& x, double from, double to) {
   const double arc = arc_of(x), angle = Epiglottis::angle(arc);
   const Vector off = x - Epiglottis::midline(arc);

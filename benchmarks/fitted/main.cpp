@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How thin walls of fitted particles bend and twist, whichever way they lie. See --help.
+// How thin walls of fitted particles bend and twist at any orientation. See --help.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     if (wanted("bend")) study.publish(fitted::bent_strip(study.quick));
     if (wanted("half-cylinder")) study.publish(fitted::half_cylinder(study.quick));
     if (wanted("half-ball")) study.publish(fitted::half_ball(study.quick));
-    // Not in a quick run, which is a test: they miss their bounds; see the page.
+    // Not in a quick run, which is a test: these two miss their bounds; see the page.
     for (const bool own_volumes : {false, true})
       if (wanted("strip") && !study.quick) study.publish(fitted::twisted_strip(false, own_volumes));
     if (wanted("leaf") && !study.quick) study.publish(fitted::leaf(false));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A clamped plate that lies in any direction: how far it bends, and how fast it vibrates.
+// A clamped plate at any orientation: how far it bends, and how fast it vibrates.
 #include <cmath>
 
 #include "fitted/scene.hpp"
@@ -10,8 +10,8 @@ namespace {
 
 constexpr double length = 36e-3, width = 24e-3, thickness = 4.8e-3, held = 6e-3;  // m
 constexpr double load = 1962, density = 1000;                                     // N/m3 across the plate, kg/m3
-// By finite elements (C3D20R of CalculiX): mm, and Hz, of which 2, 4 and 6 elements through the thickness give 6.572,
-// 6.398 and 6.366, and the fit of order two 6.34.
+// By finite elements (C3D20R of CalculiX): mm, and Hz; for the frequency, 2, 4 and 6 elements through the thickness
+// give 6.572, 6.398 and 6.366, and the fit of order two 6.34.
 constexpr double answer = 1.90, first_frequency = 6.34;
 
 [[nodiscard]] hmps::MooneyRivlin<> material() { return hmps::MooneyRivlin<>::from_young(100e3, 1e6); }
@@ -20,12 +20,12 @@ constexpr double answer = 1.90, first_frequency = 6.34;
 [[nodiscard]] Piece fit(const Placement& at, double from, double to, double spacing) {
   const Vector centre((length - held) / 2, width / 2, thickness / 2);
   const hmps::Box<double, 3> part{Vector(from, 0, 0) - centre, Vector(to, width, thickness) - centre};
-  const Vector reach = Vector::Constant(0.03);  // beyond the corners, whichever way the plate is turned
+  const Vector reach = Vector::Constant(0.03);  // beyond the corners at any orientation of the plate
   return hmps::fit_particles(at.placed(part), hmps::Box<double, 3>{-reach, reach}, spacing);
 }
 
-/// The plate with a piece beyond the clamped face that is fitted by itself, and held. The face goes through the middle
-/// of the outermost held particles (thin_wall) or half a spacing in front of them.
+/// The plate with a piece beyond the clamped face that is fitted separately and held. The face passes through the
+/// middle of the outermost held particles (thin_wall) or half a spacing in front of them.
 [[nodiscard]] FittedBody plate(const Placement& at, double spacing, Choice choice) {
   const double clamp = choice == Choice::thin_wall ? spacing / 2 : 0;
   return {spacing,
@@ -35,8 +35,8 @@ constexpr double answer = 1.90, first_frequency = 6.34;
           material()};
 }
 
-/// Lets the plate sink. Returns the deflection of the tip in mm: the line through the displacements of the last 7 mm,
-/// at the end.
+/// Lets the plate sink. Returns the deflection of the tip in mm, from the line through the displacements of the last 7
+/// mm.
 [[nodiscard]] double sink(FittedBody& body, const Placement& at) {
   const Vector down = at.direction(Vector(0, 0, -1));
   body.settle([&](std::size_t) -> Vector { return load * down; }, load* length* width* thickness);
@@ -49,7 +49,8 @@ constexpr double answer = 1.90, first_frequency = 6.34;
   return 1e3 * (w * aa - aw * a) / (n * aa - a * a);
 }
 
-/// The lowest frequency in Hz of a plate that has sunk, started without load in the shape in which it has.
+/// The lowest frequency in Hz of a plate that has sunk. It is started without load, with velocities in the shape of the
+/// sag.
 [[nodiscard]] double vibrate(FittedBody& body) {
   std::vector<Vector> shape(body.moving());
   for (std::size_t i = 0; i < body.moving(); ++i) shape[i] = 0.5 * body.displacement(i);  // the tip moves by 25 um

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A free ring that is squeezed across, in any direction.
+// A free ring that is squeezed across, at any orientation.
 #include <cmath>
 #include <numbers>
 

@@ -12,7 +12,7 @@
 namespace fitted {
 namespace {
 
-/// Takes the mean and the moment from a pattern, so that a free body neither drifts nor turns.
+/// Subtracts the mean and the moment from a pattern, so that a free body neither drifts nor turns.
 void balance(std::vector<Vector>& pattern, const std::vector<Vector>& places) {
   const auto count = static_cast<double>(pattern.size());
   Vector sum = Vector::Zero(), moment = Vector::Zero(), middle = Vector::Zero();
@@ -42,7 +42,7 @@ std::vector<Placement> any_placements(int count, double spacing) {
   const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
   std::vector<Placement> all;
   while (static_cast<int>(all.size()) < count) {
-    // A quaternion that is even over the unit sphere: any turn is as likely as any other.
+    // A quaternion with a uniform distribution over the unit sphere: all turns are equally likely.
     const double split = share(), first = 2 * std::numbers::pi * share(), second = 2 * std::numbers::pi * share();
     const double a = std::sqrt(1 - split), b = std::sqrt(split);
     const Eigen::Quaterniond turn(b * std::cos(second), a * std::sin(first), a * std::cos(first), b * std::sin(second));
@@ -142,7 +142,7 @@ void FittedBody::yield_linearly(const std::function<Vector(std::size_t)>& load, 
     }
     if (unbalanced <= tolerance * total) break;
     if (iteration == most_iterations) throw hmps::StateError("a body does not come to rest under a small load");
-    // The derivative of the forces, over a way on which they are linear and yet far above what is rounded off.
+    // The derivative of the forces, over a step in which they are linear and still much larger than rounding errors.
     const double step = 1e-6 * body_.spacing / longest;
     for (std::size_t i = 0; i < moving_; ++i) body_.position[i] = body_.reference[i] + step * along[i];
     const std::vector<Vector>& forces = internal_forces();
@@ -198,7 +198,7 @@ double FittedBody::frequency(const std::vector<Vector>& shape, double density) {
       hmps::stable_step(internal_, body_.x(), body_.v(), density, {.spacing = body_.spacing, .moves = moves}).limit;
   std::vector<double> crossings;
   double last = 0;
-  constexpr long most_steps = 1'000'000;  // the slowest of these bodies passes zero three times in some ten thousand
+  constexpr long most_steps = 1'000'000;  // the slowest of these bodies needs about ten thousand
   for (long step = 1; crossings.size() < 3; ++step) {
     if (step > most_steps) throw hmps::StateError("a body does not vibrate along the shape in which it was started");
     internal_(body_.x(), body_.v(), body_.f());

@@ -13,20 +13,20 @@
 #include "report/table.hpp"
 #include "scenes/body.hpp"
 
-/// Bodies of fitted particles that lie in any direction.
+/// Bodies of fitted particles at any orientation.
 namespace fitted {
 
 using Vector = hmps::Vector<double, 3>;
 using Piece = hmps::FittedParticles<double, 3>;
 
-/// Where a body lies: turned about the origin, then moved.
+/// The placement of a body: turned about the origin, then moved.
 struct Placement {
   hmps::Matrix<double, 3> turn = hmps::Matrix<double, 3>::Identity();
   Vector moved = Vector::Zero();
 
   [[nodiscard]] Vector local(const Vector& x) const { return turn.transpose() * (x - moved); }
   [[nodiscard]] Vector direction(const Vector& of_body) const { return turn * of_body; }
-  /// A shape of the body where it lies.
+  /// A shape of the unturned body, moved to its placement.
   template <class Shape>
   [[nodiscard]] auto placed(Shape shape) const {
     return hmps::translated(hmps::rotated(std::move(shape), turn), moved);
@@ -38,8 +38,8 @@ struct Placement {
 /// `count` placements, turned about any axis by any angle and moved by up to a spacing (m) along each; always the same.
 [[nodiscard]] std::vector<Placement> any_placements(int count, double spacing);
 
-/// Fits the part of `shape` within `around` (m), both of the body where it lies unturned. The box that is sampled turns
-/// with neither of them, and does not move with the body, which is moved by up to a spacing (m).
+/// Fits the part of `shape` within the box `around` (m), both given for the unturned body. The box that is sampled does
+/// not turn with them, and does not move with the body, which is moved by up to a spacing (m).
 template <class Shape>
 [[nodiscard]] Piece fit_where_it_lies(const Placement& at, Shape shape, const hmps::Box<double, 3>& around,
                                       double spacing) {
@@ -50,11 +50,11 @@ template <class Shape>
   return hmps::fit_particles(at.placed(part), hmps::Box<double, 3>{middle - reach, middle + reach}, spacing);
 }
 
-/// A load in proportion to a pattern.
+/// A load that is proportional to a pattern.
 struct PatternLoad {
-  std::function<Vector(const Vector&)> pattern;  ///< of the place in the body where it lies unturned
-  double size;                                   ///< N/m3 where the pattern is 1
-  /// Of a free body: its mean and its moment, which an uneven cloud has, are taken from the pattern.
+  std::function<Vector(const Vector&)> pattern;  ///< as a function of the place in the unturned body
+  double size;                                   ///< N/m3 for a pattern of 1
+  /// For a free body: the mean and the moment, which are not zero on an uneven cloud, are subtracted from the pattern.
   bool of_free_body = false;
 };
 
@@ -66,11 +66,11 @@ enum class Choice {
 };
 [[nodiscard]] std::string name(Choice choice);
 
-/// A body of pieces, the first of which moves while the others are held.
+/// A body of pieces: the first one moves, the others are held.
 class FittedBody {
  public:
-  /// `layers`: what `sheet_stabiliser` is told. Each particle stands for its own volume if `own_volumes`, else for the
-  /// cube of the spacing.
+  /// `layers` is passed to `sheet_stabiliser`. Each particle stands for its own volume if `own_volumes`, otherwise for
+  /// the cube of the spacing.
   FittedBody(double spacing, const std::vector<Piece>& pieces, Choice choice, int layers,
              const hmps::MooneyRivlin<>& law, bool own_volumes = false);
 
@@ -82,17 +82,18 @@ class FittedBody {
 
   /// Brings the body to rest under `load(i)` (N/m3) until the unbalanced forces are `tolerance` times `total` (N).
   void settle(const std::function<Vector(std::size_t)>& load, double total, double tolerance = 2e-3);
-  /// Brings the body to rest from where its particles are, all of which move; `hold` takes from the forces (N/m3) what
-  /// the particles may not follow. Ends as `settle` does.
+  /// Brings the body to rest from its present state; all particles move. `hold` removes from the forces (N/m3) the
+  /// parts that the particles may not follow. Ends as `settle` does.
   void settle_held(const std::function<void(const hmps::VectorView<double, 3>&)>& hold, double total, double tolerance);
-  /// Moves the particles from the reference configuration as a linear body would under `load(i)` (N/m3), by conjugate
-  /// gradients; many times faster than `settle`, and what finite elements for small strains compute. Ends as `settle`.
+  /// Displaces the particles from the reference configuration as in a linear body under `load(i)` (N/m3), by conjugate
+  /// gradients. This is many times faster than `settle`, and is what finite elements for small strains compute. Ends as
+  /// `settle` does.
   void yield_linearly(const std::function<Vector(std::size_t)>& load, double total, double tolerance);
-  /// How far the body gives way to a small load, in mm: the A of the displacement A `pattern` that fits best. It is
-  /// what the load works, but for a factor. A particle carries its share of the load by its volume in `volumes` (m3),
-  /// which counts the moving ones; all the same if empty.
+  /// How far the body gives way to a small load, in mm: the A of the displacement A `pattern` that fits best, which is
+  /// proportional to the work of the load. A particle carries a share of the load in proportion to its volume in
+  /// `volumes` (m3), one for each moving particle; if empty, all shares are equal.
   [[nodiscard]] double gives_way(const Placement& at, const PatternLoad& load, const std::vector<double>& volumes = {});
-  /// The internal forces in N/m3 at rest where the particles are.
+  /// The internal forces in N/m3 at the present positions, without velocities.
   [[nodiscard]] const std::vector<Vector>& internal_forces();
   /// The frequency in Hz of a small vibration without viscosity, started from the reference configuration with the
   /// velocities `shape` (m/s) of the particles that move: over the period from the first to the third time at which the
@@ -107,7 +108,7 @@ class FittedBody {
   hmps::ForceFunction<double, 3> internal_;
 };
 
-/// What runs in several placements gave.
+/// The results of runs in several placements.
 struct Spread {
   double mean, scatter, least, most;  ///< the scatter is the standard deviation over the mean
 };
@@ -115,22 +116,22 @@ struct Spread {
 /// A share as a percentage with a sign.
 [[nodiscard]] std::string percent(double share);
 
-/// What a table compares of one body with the answer of finite elements.
+/// The results for one body that a table compares with the answer of finite elements.
 struct Comparison {
-  std::string name, of, measured;  ///< of the table, of the body in words, and what is measured
+  std::string name, of, measured;  ///< the table's name, the body in words, the quantity
   double answer;
   int digits;
   std::vector<int> layers;
-  std::vector<int> placements;                           ///< of each number of layers
+  std::vector<int> placements;                           ///< for each number of layers
   std::function<double(const Placement&, int)> measure;  ///< with a number of layers
   std::function<double(int)> spacing;                    ///< with a number of layers, m
-  /// Of the error: 6 % with two layers, 3 % with more.
+  /// Bound of the error: 6 % with two layers, 3 % with more.
   std::function<double(int)> bound = [](int count) { return count < 3 ? 0.06 : 0.03; };
 };
-/// Runs a comparison; `quick` leaves its first number of layers in one placement.
+/// Runs a comparison; with `quick` only the first number of layers in one placement.
 [[nodiscard]] report::Table compared(const Comparison& with, bool quick);
 
-/// The tables of the page; `quick` leaves a small part.
+/// The tables of the page; with `quick` only a small part.
 [[nodiscard]] report::Table plate_about_one_axis(const std::vector<double>& spacings, bool quick);  ///< plate.cpp
 [[nodiscard]] report::Table plate_about_any_axis(const std::vector<double>& spacings, bool quick);
 [[nodiscard]] report::Table twisted_bar(bool quick);    ///< bar.cpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curved walls in any direction: an open half cylinder that is pinched, and half a hollow ball under a radial load.
+// Curved walls at any orientation: an open half cylinder that is pinched, and half a hollow ball under a radial load.
 #include <cmath>
 #include <numbers>
 
@@ -11,10 +11,10 @@ namespace {
 
 constexpr double radius = 24e-3, wall = 4.8e-3;  // m, the radius in the middle of the wall
 constexpr double length = 36e-3;                 // m, of the half cylinder
-constexpr double held = 6e-3;                    // m, how far the ball goes on beyond its rim
+constexpr double held = 6e-3;                    // m, how far the ball continues beyond its rim
 
-// By references/bodies.py, in mm, whose refinement is the number of quadratic bricks through the wall. half_cylinder
-// 1 to 4: 0.19062, 0.19072, 0.19073, 0.19073. half_ball 1 to 5: 0.012611, 0.012721, 0.012738, 0.012745, 0.012749.
+// By references/bodies.py, in mm; its refinement is the number of quadratic bricks through the wall. half_cylinder 1 to
+// 4: 0.19062, 0.19072, 0.19073, 0.19073. half_ball 1 to 5: 0.012611, 0.012721, 0.012738, 0.012745, 0.012749.
 constexpr double pinched = 0.1907, blown = 0.01275;
 
 [[nodiscard]] hmps::MooneyRivlin<> material() { return hmps::MooneyRivlin<>::from_young(100e3, 1e6); }
@@ -32,7 +32,7 @@ constexpr double pinched = 0.1907, blown = 0.01275;
   return body.gives_way(at, {.pattern = pattern, .size = 1000, .of_free_body = true});
 }
 
-/// How far the half ball, z > 0, gives way to a radial load, in mm. It goes on beyond the plane of its rim, where its
+/// How far the half ball, z > 0, gives way to a radial load, in mm. It continues beyond the plane of its rim, where its
 /// particles are held.
 [[nodiscard]] double blow(const Placement& at, int layers) {
   const double l0 = spacing_of(layers), outer = radius + wall / 2 + l0;
@@ -43,7 +43,7 @@ constexpr double pinched = 0.1907, blown = 0.01275;
   FittedBody body(l0, {part(l0 / 2, outer), part(-held, l0 / 2)}, Choice::thin_wall, layers, material());
   const double moved =
       body.gives_way(at, {.pattern = [](const Vector& x) { return Vector(x.normalized()); }, .size = 1e4});
-  // The mean over the half ball, of which the half layer of held particles on this side of the rim is a part.
+  // The mean over the half ball, which includes the half layer of held particles on this side of the rim.
   const double volume = 2 * std::numbers::pi / 3 * (std::pow(radius + wall / 2, 3) - std::pow(radius - wall / 2, 3));
   return moved * static_cast<double>(body.moving()) * std::pow(l0, 3) / volume;
 }

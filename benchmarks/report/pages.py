@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pages of Markdown from Python, as lines: what report/text.hpp and report/table.hpp are to the studies in C++."""
+"""Pages of Markdown as lines, for Python: the counterpart of report/text.hpp and report/table.hpp in C++."""
 
 import textwrap
 

@@ -55,7 +55,7 @@ std::string in_full(double value) { return examples::to_text(value); }
 std::vector<Cells> read_csv(std::string_view text) {
   std::vector<Cells> lines;
   Cells line(1);
-  bool within = false;  // quotes
+  bool within = false;  // inside quotes
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (within && c == '"' && i + 1 < text.size() && text[i + 1] == '"')

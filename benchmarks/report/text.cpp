@@ -23,7 +23,7 @@ std::string places(double value, int count) { return printed("%.*f", count, valu
 
 std::string rounded(double value, int count) {
   char text[64];
-  // Fixed where that is readable: 123000 rather than 1.23e+05.
+  // Fixed notation where it is readable: 123000 rather than 1.23e+05.
   const double size = std::abs(value);
   if (size >= std::pow(10, count) && size < 1e7) {
     const double unit = std::pow(10, std::floor(std::log10(size)) + 1 - count);

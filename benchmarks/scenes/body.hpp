@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-/// What the studies simulate and is none of them's own.
+/// Scenes and helpers that several studies share.
 namespace scenes {
 
 /// Particles in `D` dimensions (two: plane strain) with their state in `S`, at rest in their reference configuration.

@@ -11,14 +11,14 @@
 
 namespace scenes {
 
-/// The particles of a block on a wall, those of the block first, and their parts.
+/// The particles of a block on a wall, those of the block first, and the sets of particles with a role in contact.
 struct BlockOnWall {
   std::vector<hmps::Vector<double, 3>> places = {};              ///< m
-  std::size_t block = 0;                                         ///< so many are the block's
-  std::vector<hmps::Index> bottom = {}, lower = {}, plate = {};  ///< of the block: slaves, masters, what a plate leads
+  std::size_t block = 0;                                         ///< number of particles of the block
+  std::vector<hmps::Index> bottom = {}, lower = {}, plate = {};  ///< of the block: slaves, masters, led by a plate
   std::vector<hmps::Index> skin = {}, wall = {};                 ///< of the wall: slaves, masters
 
-  /// Adds a particle of the block; those of the wall come after.
+  /// Adds a particle of the block. Add those of the wall after all of these.
   void add(const hmps::Vector<double, 3>& place, bool is_bottom, bool is_lower, bool is_led) {
     const auto index = static_cast<hmps::Index>(places.size());
     if (is_bottom) bottom.push_back(index);
@@ -39,7 +39,7 @@ struct BlockSettings {
   double spacing, density, young, d1, modulus, viscosity;  ///< of the block; the modulus is E_hat
   double pressure, area;                                   ///< of the plate on top
   double friction, ratio;                                  ///< of the contact; the ratio is k~
-  std::optional<double> damping = {};                      ///< nothing: that of the friction law
+  std::optional<double> damping = {};                      ///< empty: that of the friction law
   double margin = 0.5;
 };
 
@@ -49,8 +49,8 @@ template <class B, class M>
                               hmps::artificial(s.modulus), hmps::viscous(s.density, s.viscosity), hmps::record(F));
 }
 
-/// A block of soft tissue on a rigid wall, pressed by a rigid plate that sinks as the block lets it. Its state is in
-/// `S`, the rest in the scalar of `Bonds`.
+/// A block of soft tissue on a rigid wall, pressed by a rigid plate that sinks as far as the block allows. Its state
+/// has the scalar type `S`, the forces that of `Bonds`.
 template <class Bonds, class S, class Ball, class Friction>
 struct PressedBlock {
   using K = typename Bonds::Scalar;
@@ -68,7 +68,7 @@ struct PressedBlock {
   hmps::MetaballContact<K, 3, Ball, Friction> contact;
   std::size_t pair;
 
-  /// `choose(force, x, v)`: the step in s.
+  /// `choose(force, x, v)` returns the step in s.
   template <class Choose>
   PressedBlock(BlockOnWall of, const BlockSettings& s, Choose&& choose)
       : parts(std::move(of)),
@@ -94,7 +94,7 @@ struct PressedBlock {
   [[nodiscard]] auto v() { return hmps::vectors(velocity); }
   [[nodiscard]] auto f() { return hmps::vectors(load); }
   [[nodiscard]] auto F() { return hmps::matrices(gradient); }
-  /// The part of a view that is the block.
+  /// The part of a view that belongs to the block.
   template <class View>
   [[nodiscard]] auto block(const View& view) const {
     return view.part(0, parts.block);
@@ -104,7 +104,7 @@ struct PressedBlock {
     for (const auto& where : parts.places) position.push_back(where.template cast<S>());
   }
   void unload() { std::fill(load.begin(), load.end(), Vector::Zero()); }
-  /// Lets the plate sink for a step under its pressure and what the block does to it.
+  /// Lets the plate sink for a step under its pressure and the force of the block.
   void sink() {
     const double volume = settings.spacing * settings.spacing * settings.spacing;
     double lift = -settings.pressure * settings.area;
@@ -112,12 +112,12 @@ struct PressedBlock {
     if (!parts.plate.empty())
       sinking += dt * lift / (static_cast<double>(parts.plate.size()) * volume * settings.density);
   }
-  /// Kicks the block for `time`, then leads the plate at `speed` along the wall.
+  /// Kicks the block for `time` (s), then leads the plate at `speed` (m/s) along the wall.
   void kick(double time, double speed) {
     hmps::kick(block(v()), block(f()), settings.density, time);
     for (const hmps::Index i : parts.plate) velocity[i] = Vector(static_cast<S>(speed), S(0), static_cast<S>(sinking));
   }
-  /// Adds the force of contact over `time`, for particles seen at `places`.
+  /// Adds the force of contact over the step `time`, with the particles at `places`.
   void touch(const hmps::VectorView<S, 3>& places, double time) { (void)contact.add(places, v(), F(), f(), time); }
   [[nodiscard]] hmps::Vector<double, 3> on_wall() const { return contact.force_on_first(pair); }
   void drift() {

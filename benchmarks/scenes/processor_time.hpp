@@ -5,7 +5,7 @@
 
 namespace scenes {
 
-/// Seconds that this program has had of all processors.
+/// Processor time of this program in seconds, summed over all processors.
 [[nodiscard]] inline double processor_seconds() {
   std::timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-/// Beams: the theory that benchmarks of bending are compared with.
+/// The beam theory with which benchmarks of bending are compared.
 namespace scenes {
 
-/// A prismatic beam of square section, of an isotropic elastic material. SI units.
+/// A prismatic beam of square section and isotropic elastic material. SI units.
 struct SquareBeam {
   double length, height, young, poisson, density;
 
@@ -19,11 +19,12 @@ struct SquareBeam {
 /// How a beam is held at its first end; the other is free.
 enum class End { clamped, free };
 
-/// The wave number times the length of the first mode of Euler and Bernoulli: of cos(b) cosh(b) = -1 (clamped) and
-/// = 1 (free).
+/// The wave number times the length for the first mode of an Euler-Bernoulli beam: the first roots of cos(b) cosh(b) =
+/// -1 (clamped) and = 1 (free).
 inline constexpr double clamped_root = 1.8751040687119611, free_root = 4.7300407448627040;
 
-/// The first mode of a clamped beam where the wave number times the distance from the clamp is `phase`; 1 at its end.
+/// The first mode of a clamped beam at the point at which the wave number times the distance from the clamp is `phase`;
+/// 1 at the free end.
 [[nodiscard]] inline double clamped_mode(double phase) {
   return (std::cosh(phase) - std::cos(phase) - 0.7340955137589128 * (std::sinh(phase) - std::sin(phase))) / 2;
 }
@@ -33,19 +34,20 @@ inline constexpr double clamped_root = 1.8751040687119611, free_root = 4.7300407
   return (std::cosh(phase) + std::cos(phase) - ratio * (std::sinh(phase) + std::sin(phase))) / 2;
 }
 
-/// The first bending frequency in Hz by Euler and Bernoulli: b^2 sqrt(E I / (rho A)) / L^2, over 2 pi.
+/// The first bending frequency in Hz by Euler-Bernoulli theory: b^2 sqrt(E I / (rho A)) / L^2, over 2 pi.
 [[nodiscard]] inline double euler_bernoulli_frequency(const SquareBeam& b, End end) {
   const double root = end == End::clamped ? clamped_root : free_root;
   return root * root * std::sqrt(b.young * b.second_moment() / (b.density * b.area())) /
          (2 * std::numbers::pi * b.length * b.length);
 }
 
-/// The same by Timoshenko, with shear (Cowper's coefficient of a square) and rotary inertia: the least omega for which
+/// The same frequency by Timoshenko's theory, with shear (Cowper's coefficient of a square) and rotary inertia: the
+/// least omega for which the integration of
 ///
 ///     M' = -Q - omega^2 rho I psi,   psi' = M / (E I),   Q' = -omega^2 rho A w,   w' = psi + Q / (kappa G A)
 ///
-/// leads from w = psi = 0 (clamped) or M = Q = 0 (free) to M = Q = 0 at the other end. Integrated by Runge and Kutta,
-/// found by bisection. For beams of at least five heights.
+/// leads from w = psi = 0 (clamped) or M = Q = 0 (free) to M = Q = 0 at the other end. It is integrated by a
+/// Runge-Kutta method and found by bisection. For beams whose length is at least five heights.
 [[nodiscard]] inline double timoshenko_frequency(const SquareBeam& b, End held) {
   const double shear = b.young / (2 * (1 + b.poisson));
   const double kappa = 10 * (1 + b.poisson) / (12 + 11 * b.poisson);
@@ -75,7 +77,7 @@ inline constexpr double clamped_root = 1.8751040687119611, free_root = 4.7300407
     const State other = end(clamped ? State{0, 0, 0, 1} : State{0, 1, 0, 0});
     return one[2] * other[3] - one[3] * other[2];
   };
-  // Shear and rotary inertia only lower the first root; a free beam has a double one at 0 besides.
+  // Shear and rotary inertia only lower the first root. A free beam also has a double root at 0.
   double high = 2 * std::numbers::pi * euler_bernoulli_frequency(b, held) * 1.0001, low = high / 2;
   const bool sign = determinant(low) > 0;
   for (int i = 0; i < 60; ++i) {

@@ -33,17 +33,17 @@ template <class S>
 template <class S>
 using Body = scenes::Body<3, S>;
 
-/// How a run ended.
+/// The end of a run.
 struct Ending {
   bool alive = true;
   double time = 0;       ///< s
-  std::string why = {};  ///< it did not go on
-  double fastest = 0;    ///< m/s, of any particle on the way
+  std::string why = {};  ///< reason why the run did not go on
+  double fastest = 0;    ///< m/s, largest speed of a particle during the run
 };
 
 /// Runs `body` for `duration` in steps `dt` under `force(x, v, f)`, with compensated drift. `prescribe(t)` sets the
-/// velocities of particles that are led, after the kick. Stops at a NaN, at a speed beyond `speed_limit` and, unless
-/// `may_invert`, at det F <= 0.
+/// velocities of particles with prescribed motion, after the kick. Stops at a NaN, at a speed beyond `speed_limit` and,
+/// unless `may_invert`, at det F <= 0.
 template <class S, class Force, class Prescribe>
 Ending run(Body<S>& body, Force& force, double rho, double dt, double duration, double speed_limit, bool may_invert,
            Prescribe&& prescribe) {
@@ -74,7 +74,7 @@ Ending run(Body<S>& body, Force& force, double rho, double dt, double duration, 
   return run(body, force, rho, dt, duration, speed_limit, may_invert, [](double) {});
 }
 
-/// The smallest det F of a body.
+/// The smallest det F in a body.
 template <class S>
 [[nodiscard]] double least_jacobian(const Body<S>& body) {
   double least = 1e300;
@@ -82,7 +82,7 @@ template <class S>
   return least;
 }
 
-/// The step to use at rest for a force on a body.
+/// The recommended step at rest for a force on a body.
 template <class S, class Force>
 [[nodiscard]] double stable(Body<S>& body, Force& force, double rho) {
   return hmps::stable_step(force, body.x(), body.v(), rho, {.spacing = body.spacing}).step;

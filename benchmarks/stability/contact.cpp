@@ -10,7 +10,7 @@
 namespace stability {
 namespace {
 
-/// A cube above a wall or above another cube, which are parts of one set of particles, the cube first.
+/// A cube above a wall or above another cube. Both are parts of one set of particles, the upper cube first.
 template <class S>
 class Meeting {
  public:
@@ -56,11 +56,11 @@ class Meeting {
   }
 
   Body<S>& body() { return body_; }
-  /// Slaves reported as deep, and all contacts, so far.
+  /// Number of slaves reported as deep so far; contacts() is the number of all contacts.
   [[nodiscard]] std::size_t deep() const { return deep_; }
   [[nodiscard]] std::size_t contacts() const { return contacts_; }
 
-  /// The stable step of the parts on their own.
+  /// The stable step of the parts without contact.
   [[nodiscard]] double stable() {
     const auto x = body_.x(), v = body_.v();
     const hmps::StableStepSettings settings{.spacing = spacing};
@@ -138,7 +138,8 @@ class Meeting {
       if (c == 0 || c == n - 1) return true;
     return false;
   }
-  /// The part of a view that is the cube, and that which its partner is, if it moves; if it is held, the cube again.
+  /// The part of a view that belongs to the cube; partner() is the part of the lower body if that moves, otherwise the
+  /// cube again.
   template <class View>
   [[nodiscard]] static auto cube(const View& view) {
     return view.part(0, cube_size);
@@ -161,8 +162,8 @@ class Meeting {
   std::size_t deep_ = 0, contacts_ = 0;
 };
 
-/// What becomes of a cube thrown at a held wall: nothing said if it bounces off. A speed of twice that of sound or of
-/// the throw counts as broken.
+/// The fate of a cube thrown at a held wall; empty if it bounces off. The cube counts as broken if a speed exceeds
+/// twice the speed of sound or twice that of the throw.
 template <class S>
 std::string thrown(int layers, double share, double speed) {
   Meeting<S> scene({.layers = layers});
@@ -183,8 +184,8 @@ std::string thrown(int layers, double share, double speed) {
   return "";
 }
 
-/// A cube that falls on another at 1 m/s and, with friction, 1 m/s along it: the largest energy on the way over that of
-/// the start.
+/// A cube that falls on another at 1 m/s and, with friction, 1 m/s along it: the largest energy during the run over
+/// that at the start.
 template <class S>
 std::string collide(const typename Meeting<S>::Settings& settings, double sideways) {
   Meeting<S> scene(settings);

@@ -20,9 +20,9 @@ double noise_of(std::uint64_t number) {
   return (static_cast<double>(number >> 11) + 0.5) * 0x1.0p-52 - 1.0;
 }
 
-/// Whether noise of velocity grows by changing its sign at each step. What grows without is physical, such as buckling.
-/// In contact all must stay so small that no face opens, and the first motion to have grown decides: there others
-/// grow too.
+/// Whether noise in the velocities grows by changing its sign at each step. Motion that grows without changing its sign
+/// is physical, such as buckling. With contact all motion must stay so small that no face opens, and the first motion
+/// that has grown decides, because other motions also grow there.
 template <class S>
 bool alternates(Sheet<S>& scene, double dt) {
   constexpr bool single = std::is_same_v<S, float>;
@@ -37,7 +37,7 @@ bool alternates(Sheet<S>& scene, double dt) {
   };
   restore();
   scene(body.x(), body.v(), body.f());
-  const auto dead = body.load;  // holds what the force is at the start
+  const auto dead = body.load;  // the force at the start
   for (std::size_t i = 0; i < body.size() && scene.moves(i); ++i)
     for (int c = 0; c < 3; ++c)
       body.velocity[i][c] = static_cast<S>(noise * noise_of(3 * i + static_cast<std::uint64_t>(c)));
@@ -67,7 +67,7 @@ bool alternates(Sheet<S>& scene, double dt) {
   return found;
 }
 
-/// The largest step that holds, to 0.2 %.
+/// The largest step at which the run is stable, to 0.2 %.
 template <class S>
 double measured(Sheet<S>& scene, double guess) {
   const auto held = [&](double dt) { return !alternates(scene, dt); };
@@ -81,7 +81,7 @@ double measured(Sheet<S>& scene, double guess) {
   return low;
 }
 
-/// What was found of one case in one scalar type.
+/// The results for one case in one scalar type.
 struct Found {
   double measured, step, limit;
   int evaluations;
@@ -93,7 +93,7 @@ Found find(const Case& c) {
   Sheet<S> scene(c);
   hmps::StableStepSettings settings{.spacing = spacing};
   settings.moves = [&scene](std::size_t i) { return scene.moves(i); };
-  if (c.penalty > 0) settings.perturbation = 1e-6;  // far less than the penetration
+  if (c.penalty > 0) settings.perturbation = 1e-6;  // much less than the penetration
   const auto found = hmps::stable_step(scene, scene.body().x(), scene.body().v(), density, settings);
   std::string text;
   for (const auto& cause : scene.causes(found, settings))
@@ -133,7 +133,7 @@ Table courant(bool quick, std::vector<Ratio>& ratios) {
                "Step / largest, float", "Support", "Cause", "Evaluations"}};
   double dt_c = 0, thin_dt_c = 0;
   const auto add = [&](const Case& c) {
-    // Contact by a penetration of a hundred-thousandth of a spacing is beyond float.
+    // Contact with a penetration of a hundred-thousandth of a spacing is beyond the precision of float.
     const bool both = c.penalty == 0;
     const Found d = find<double>(c), f = both ? find<float>(c) : d;
     table.rows.push_back({c.group, c.name, places(d.measured * d.sound / spacing), places(d.step / d.measured),
@@ -143,7 +143,7 @@ Table courant(bool quick, std::vector<Ratio>& ratios) {
       const std::string scene = c.group + " " + c.name;
       if (!both && scalar != std::string("double")) continue;
       ratios.push_back({scene + ", " + scalar, found.step / found.measured, found.limit / found.measured});
-      // The limit is measured from below, to 0.2 %.
+      // The measured limit is a lower bound, to 0.2 %.
       table.check(found.step < 1.002 * found.measured, scene + " in " + scalar + ": the step is above the limit");
       table.check(found.step > 0.9 * found.measured, scene + " in " + scalar + ": the step is 10 % below the limit");
     }
@@ -151,7 +151,7 @@ Table courant(bool quick, std::vector<Ratio>& ratios) {
   };
   for (const Case& c : cases(quick)) {
     const Found d = add(c);
-    // The bodies in contact are as thick.
+    // The bodies in contact have the same thickness.
     if (c.group == "layers" && c.layers == 4) dt_c = d.measured;
     if (c.group == "layers" && c.layers == 2) thin_dt_c = d.measured;
   }

@@ -10,13 +10,13 @@
 namespace stability {
 namespace {
 
-/// What a long run may lose.
+/// The drift of conserved quantities in a long run.
 struct Drift {
-  double energy, momentum, angular;  ///< each over what the body has of it
+  double energy, momentum, angular;  ///< each relative to the quantity of the body
 };
 
-/// A small bar that spins and vibrates for `steps` steps: kernels in `K`, positions in `P`, velocities and forces in
-/// `S`.
+/// A small bar that spins and vibrates for `steps` steps, with internal forces computed in `K`, positions in `P`, and
+/// velocities and forces in `S`.
 template <class K, class P, class S>
 Drift endure(long steps, double rate, bool compensated) {
   const auto reference = lattice(3, 3, 8, spacing, Vector::Constant(0.1));
@@ -30,15 +30,15 @@ Drift endure(long steps, double rate, bool compensated) {
   for (const Vector& X : reference) {
     const Vector arm = X - centre;
     position.push_back(X.cast<P>());
-    // A spin about x, a stretching along z of 0.2 m/s at the ends.
+    // A spin about x, and a stretching motion along z with 0.2 m/s at the ends.
     velocity.push_back((Vector(0, -rate * arm[2], rate * arm[1]) + 0.2 * Vector(0, 0, arm[2] / 4.2e-3)).cast<S>());
   }
   const auto x = hmps::vectors(position);
   const auto v = hmps::vectors(velocity), f = hmps::vectors(load);
   auto force = hmps::internal_force(bonds, hmps::elastic(tissue), hmps::artificial(young / 2));
-  // The velocity at the time of the positions is the mean of those half a step before and behind.
+  // The velocity at the time of the positions is the mean of the velocities half a step before and after.
   std::vector<Vector> middle(n);
-  // The diagnostics look at the state in double, whatever the kernels are in.
+  // The diagnostics use double, whatever the scalar type of the forces.
   const hmps::BondList<double, 3> exact(hmps::vectors(reference), {.spacing = spacing});
   const double volume = spacing * spacing * spacing, mass = density * volume;
   const auto energy = [&] {

@@ -11,7 +11,7 @@
 namespace stability {
 namespace {
 
-/// Steps are this share of what `stable_step` says at rest, since what is crushed is stiffer.
+/// Steps are this share of the value of `stable_step` at rest, because crushed bodies are stiffer.
 constexpr double share = 0.25;
 
 template <class Law>
@@ -24,7 +24,8 @@ std::string law_name() {
   return may_invert<Law> ? "Continued" : "as printed";
 }
 
-/// A cube that is let go after its height was multiplied by `factor`, in the paper's viscosity, in steps of `share`.
+/// A cube that is released after its height was multiplied by `factor`, with the paper's viscosity, in steps of
+/// `share`.
 template <class S, class Law>
 std::vector<std::string> let_go(const Law& law, double factor, double part) {
   Body<S> body(spacing, lattice(6, 6, 6, spacing, Vector::Zero()));
@@ -46,7 +47,7 @@ std::vector<std::string> let_go(const Law& law, double factor, double part) {
           digits(ending.fastest)};
 }
 
-/// The largest share of the stable step at rest with which it recovers.
+/// The largest share of the stable step at rest with which the cube recovers.
 template <class S, class Law>
 std::vector<std::string> recover(Table& table, const Law& law, double factor) {
   std::vector<std::string> row;
@@ -66,7 +67,7 @@ std::vector<std::string> recover(Table& table, const Law& law, double factor) {
   return row;
 }
 
-/// The ends of a body, two layers each, that are led.
+/// The two ends of a body, of two layers each, whose motion is prescribed.
 template <class S>
 struct Ends {
   Body<S>& body;
@@ -78,7 +79,7 @@ struct Ends {
       if (b.reference[i][2] > upper) end[i] = 2;
     }
   }
-  /// Gives the ends the velocities that take them to `place(end, X)` in the step `dt`.
+  /// Sets the velocities of the ends so that they reach `place(end, X)` in the step `dt`.
   template <class Place>
   void lead(double dt, Place&& place) {
     for (std::size_t i = 0; i < end.size(); ++i)
@@ -88,7 +89,7 @@ struct Ends {
   }
 };
 
-/// Presses a cube between bonded plates to the share `last` of its height, at 1 m/s, and opens them again.
+/// Presses a cube between bonded plates to the share `last` of its height, at 1 m/s, and opens the plates again.
 template <class S, class Law>
 std::vector<std::string> squeeze(const Law& law, double last) {
   const int side = 10;
@@ -152,7 +153,7 @@ std::vector<std::string> twist_to_failure(const Law& law, bool quick) {
   return {"twist of a column, started at", law_name<Law>(), name_of<S>(), end, "-"};
 }
 
-/// A bar of length 10 H whose ends are led along a circle: to which angle of bend it goes, in 0.2 s for 360 degrees.
+/// A bar of length 10 H whose ends are led along a circle, at 0.2 s for 360 degrees: the angle of bend that it reaches.
 template <class S, class Law>
 std::vector<std::string> bend(const Law& law, bool quick) {
   const int across = 4, along = 42;

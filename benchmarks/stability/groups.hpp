@@ -11,7 +11,7 @@ namespace stability {
 
 using report::digits, report::places, report::Table;
 
-// The groups of the survival map. `quick` leaves out most of a group, and keeps what must hold.
+// The groups of runs. `quick` leaves out most of a group, and keeps the checks that must hold.
 
 /// The estimate of `stable_step` over the limit found by bisection, for the picture.
 struct Ratio {
@@ -20,11 +20,11 @@ struct Ratio {
 };
 [[nodiscard]] Table courant(bool quick, std::vector<Ratio>& ratios);  ///< largest step against its estimate
 [[nodiscard]] Table refresh(bool quick);                              ///< cost and safety of refreshing the estimate
-[[nodiscard]] Table inversion(bool quick);                            ///< det F through zero, and back
+[[nodiscard]] Table inversion(bool quick);                            ///< det F below zero, and recovery
 [[nodiscard]] Table deformation(bool quick);                          ///< squeeze, twist, bend
-[[nodiscard]] Table impact(bool quick);                               ///< speed at which a wall is passed
+[[nodiscard]] Table impact(bool quick);                               ///< speed at which a body passes through a wall
 [[nodiscard]] Table partners(bool quick);                             ///< ratios of mass and stiffness, friction
 [[nodiscard]] Table endurance(bool quick);                            ///< a million steps
-[[nodiscard]] Table door();                                           ///< what is refused, in which words
+[[nodiscard]] Table door();                                           ///< rejected input, and the messages
 
 }  // namespace stability

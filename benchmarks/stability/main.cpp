@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The survival map: runs that go until they break. See --help.
+// What the method survives: runs whose loads grow until they fail. See --help.
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace stability;
 
-/// A dot for the step that `stable_step` recommends over the largest that holds, for each scene.
+/// Draws a dot for each scene: the step that `stable_step` recommends over the largest stable one.
 void draw(const std::vector<Ratio>& ratios, const std::filesystem::path& path) {
   using report::Anchor, report::Colour;
   const int row = 18, left = 300, width = 900, top = 70;

@@ -20,7 +20,7 @@ struct Case {
   double ratio = 300;    ///< kappa / mu
   double stretch = 1;    ///< along z, at constant volume
   double viscosity = 0;  ///< m2/s
-  double penalty = 0;    ///< k dt_c^2 / rho, dt_c the limit without contact; two bodies then
+  double penalty = 0;    ///< k dt_c^2 / rho with the limit dt_c without contact; if not zero, two bodies
   double dt_c = 0;       ///< s
   bool held = false;     ///< the second body does not move
 };
@@ -73,18 +73,18 @@ class Sheet {
  private:
   using List = hmps::BondList<S, 3>;
   static constexpr int side = 10;
-  static constexpr double pressure = 200;  ///< Pa, small against Young's modulus: what is pressed must not buckle
+  static constexpr double pressure = 200;  ///< Pa, much less than Young's modulus: the bodies must not buckle
 
   static std::size_t split(const Case& c) { return static_cast<std::size_t>(side * side * c.layers); }
   static std::vector<Vector> points(const Case& c) {
-    // Layers lie along x, so that the two bodies follow each other in memory.
+    // The layers follow each other along x, so that each body is contiguous in memory.
     return lattice(c.penalty > 0 ? 2 * c.layers : c.layers, side, side, spacing, Vector::Constant(0.01));
   }
   static hmps::PenaltyStiffness stiffness(const Case& c) {
     return c.penalty > 0 ? hmps::PenaltyStiffness::fixed(c.penalty * density / (c.dt_c * c.dt_c))
                          : hmps::PenaltyStiffness::ratio(0.3);
   }
-  /// Moves the second body towards the first until the contact presses it back by `pressure`.
+  /// Moves the second body towards the first until contact pushes it back with `pressure`.
   void press(const Case& c) {
     std::vector<std::size_t> second;
     for (std::size_t i = 0; i < body_.size(); ++i) {
@@ -113,7 +113,7 @@ class Sheet {
   }
 
   Body<S> body_;
-  std::size_t movable_;  ///< so many particles, the first ones, move
+  std::size_t movable_;  ///< number of particles that move, the first ones
   hmps::MooneyRivlin<> law_;
   List bonds_;
   hmps::InternalForce<List, hmps::Elastic<hmps::MooneyRivlin<>>> elastic_;

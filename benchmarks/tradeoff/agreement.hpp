@@ -11,7 +11,7 @@
 
 namespace tradeoff {
 
-/// A scene and how its sweep came out.
+/// A scene and its sweep.
 struct Swept {
   Scene scene;
   Sweep sweep;
@@ -19,12 +19,12 @@ struct Swept {
 
 namespace detail {
 
-/// A setting that several scenes tried beside the same standard, and what each made of it.
+/// A setting that several scenes tried against the same standard, and its effect in each of them.
 struct Opinion {
   std::string setting;
   std::size_t scenes = 0;
-  std::string better = "", worse = "", broken = "";  ///< where errors fell, where they grew, where it did not run
-  double least_time = 1e300, most_time = 0;          ///< over the standard's
+  std::string better = "", worse = "", broken = "";  ///< scenes where errors fell, where they grew, where it failed
+  double least_time = 1e300, most_time = 0;          ///< relative to the time of the standard
 
   void add(const Scene& scene, const Trial& run, const Trial& standard) {
     ++scenes;
@@ -64,8 +64,8 @@ struct Opinion {
 
 }  // namespace detail
 
-/// The section of the page on what the scenes agree on: a line for each setting that several of them tried beside the
-/// same standard, sorted by whether it errs less, more, or both. Scenes in which an error does not change are silent.
+/// The section of the page on what the scenes agree on: a line for each setting that several of them tried against the
+/// same standard, sorted by whether errors fall, grow, or both. Scenes in which no error changes are not named.
 [[nodiscard]] inline std::string agreement(const std::vector<Swept>& all) {
   std::vector<std::string> less, more, none, split, broken;
   for (const auto& o : detail::opinions(all)) {

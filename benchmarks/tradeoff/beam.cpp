@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A clamped beam, and a free bar, that vibrate in their first bending mode, without viscosity: how right is the
-// frequency, how well is the energy kept?
+// A clamped beam and a free bar that vibrate in their first bending mode, without viscosity: how accurate is the
+// frequency, how well is the energy conserved?
 #include <algorithm>
 #include <cmath>
 #include <hmps/hmps.hpp>
@@ -26,13 +26,13 @@ SquareBeam beam_of(const Settings& settings) {
   return {.length = length, .height = height, .young = young, .poisson = 0.5 - young / (6 * bulk), .density = density};
 }
 
-/// The first mode of Euler and Bernoulli at distance x from the first end, 1 at the other.
+/// The first mode of an Euler-Bernoulli beam at distance x from the first end; 1 at the other end.
 double mode(double x, End end) {
   return end == End::clamped ? scenes::clamped_mode(scenes::clamped_root * x / length)
                              : scenes::free_mode(scenes::free_root, scenes::free_root * x / length);
 }
 
-/// A beam that is held at one end by as many layers as bonds reach, or not at all.
+/// A beam that is held at one end, by as many layers as bonds reach, or not at all.
 std::vector<hmps::Vector<double, 3>> points(double l0, double radius, End held) {
   const hmps::Vector<double, 3> end(length, height, height), half = hmps::Vector<double, 3>::Constant(l0 / 2);
   const double clamp = held == End::clamped ? std::ceil(radius) * l0 : 0;
@@ -45,7 +45,7 @@ auto force_in(const B& bonds, const hmps::SaintVenantKirchhoff<>& law, double mo
   return hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus));
 }
 
-/// A beam that vibrates, with kernels in `K` and state in `S`.
+/// A beam that vibrates, with forces in the scalar type `K` and state in `S`.
 template <class K, class S>
 class Vibration {
  public:
@@ -101,7 +101,7 @@ class Vibration {
   using Bonds = hmps::LatticeBonds<K, 3>;
 
   [[nodiscard]] bool moves(std::size_t i) const { return lattice_[i][0] > 0; }
-  /// Puts the particles on their lattice and starts them in the shape of the mode; returns where they are.
+  /// Puts the particles on their lattice and sets their velocities to the shape of the mode; returns the positions.
   std::vector<Vector> start() {
     const double amplitude = 0.005 * length;
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
@@ -122,7 +122,7 @@ class Vibration {
       hmps::drift(x_, v_, dt_);
   }
   void step() {
-    if (verlet_) {  // f is that of x at the start, and again at the end
+    if (verlet_) {  // f belongs to x at the start, and again at the end
       kick(dt_ / 2);
       drift();
       force_(x_, f_);
@@ -140,7 +140,7 @@ class Vibration {
     return hmps::kinetic_energy(v_, density, volume) + hmps::strain_energy(F, law_, volume) +
            hmps::artificial_energy(bonds_, x_, F, modulus_, volume);
   }
-  /// The share of the mode.
+  /// The amplitude of the mode.
   [[nodiscard]] double deflection() const {
     double sum = 0;
     for (std::size_t i = 0; i < lattice_.size(); ++i)
@@ -148,7 +148,7 @@ class Vibration {
     return sum;
   }
 
-  Meter meter_;  // first, so that it sees the others
+  Meter meter_;  // first, so that it counts the other members
   End held_;
   double l0_, modulus_;
   bool verlet_;

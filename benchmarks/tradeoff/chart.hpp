@@ -58,8 +58,8 @@ inline void draw_front(const Scene& scene, const Sweep& sweep, std::size_t q, st
 
 }  // namespace detail
 
-/// Draws the magnitude of each headline error against each cost: all runs, those on the front joined and, against
-/// time, numbered as in the tables; the standard with a ring. Errors below 1e-4 % are drawn there. Runs of another
+/// Draws the magnitude of each headline error against each cost. Runs on the front are joined by a line and, against
+/// time, numbered as in the tables; the standard has a ring. Errors below 1e-4 % are drawn at 1e-4 %. Runs of another
 /// problem are left out.
 inline void draw(const Scene& scene, const Sweep& sweep, const std::filesystem::path& path) {
   constexpr double left = 66, top = 34, width = 250, height = 190, gap = 52, below = 58;

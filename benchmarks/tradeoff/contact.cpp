@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A block of soft tissue, pressed on a wall by a dead load and slid along it: how right is the friction, how even the
-// normal force? The wall is a lattice, parallel to the slide or turned to it, and should not be felt as one.
+// A block of soft tissue, pressed on a wall by a dead load and slid along it: how accurate is the friction, how even is
+// the normal force? The wall is a lattice, parallel to the slide or turned, which should have no effect on the forces.
 #include <cmath>
 #include <hmps/hmps.hpp>
 #include <numbers>
@@ -44,7 +44,7 @@ scenes::BlockOnWall parts_of(double l0, double angle) {
   for (int k = -2; k <= 0; ++k)
     for (int j = -cells; j <= cells; ++j)
       for (int i = -cells; i <= cells; ++i) {
-        // Off the block's own lattice, as walls are.
+        // Not aligned with the block's own lattice, as is usual for walls.
         const Point place = l0 * Point(c * i - s * j + 0.3, s * i + c * j + 0.2, k);
         if (std::abs(place[1]) <= width / 2 + margin && place[0] >= -width / 2 - margin &&
             place[0] <= width / 2 + speed * until + margin)
@@ -53,7 +53,7 @@ scenes::BlockOnWall parts_of(double l0, double angle) {
   return parts;
 }
 
-/// Kernels in `K`, state in `S`.
+/// Forces in the scalar type `K`, state in `S`.
 template <class K, class S, class Ball, class Friction>
 Slide slide(const Settings& settings, double angle, Meter& meter) {
   const double l0 = settings.number("spacing"), ratio = settings.number("k~");
@@ -88,7 +88,7 @@ Slide slide(const Settings& settings, double angle, Meter& meter) {
     block.force(block.block(block.x()), block.block(block.v()), block.block(block.f()));
     block.sink();
     block.kick(block.dt, speed_now);
-    if (step % cadence == 0) {  // all the impulse of `cadence` steps at once
+    if (step % cadence == 0) {  // the whole impulse of `cadence` steps at once
       block.unload();
       block.touch(block.x(), cadence * block.dt);
       block.kick(cadence * block.dt, speed_now);
@@ -122,8 +122,8 @@ Outcome slides(const Settings& settings) {
                         across.ripple});
 }
 
-/// Kernel, law and scalar are types: which of them is settled here. The scalars other than double are there for the
-/// default types only, so that this compiles in bearable time.
+/// Metaball, friction law and scalar are types, which are selected here. Scalars other than double are available only
+/// with the default types, to limit the compile time.
 Outcome press(const Settings& settings) {
   using hmps::CorrectedFriction, hmps::PaperFriction, hmps::PaperMetaball, hmps::SmoothMetaball;
   const std::string& scalar = settings.word("scalar");

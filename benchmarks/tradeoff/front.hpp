@@ -12,7 +12,7 @@
 
 namespace tradeoff {
 
-/// A run as the front sees it; of both, less is better.
+/// The cost and the error of a run; of both, less is better.
 struct Point {
   double cost, error;
 };
@@ -22,9 +22,9 @@ struct Point {
   return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
 }
 
-/// The Pareto front: the numbers of the points that no other dominates, by rising cost, so that the error falls
-/// strictly along it. Of equal points the first stands for all. Throws `InputError` for a point whose cost or error is
-/// negative or not finite.
+/// The Pareto front: the indices of the points that no other point dominates, in order of rising cost, so that the
+/// error falls strictly. Of equal points only the first is returned. Throws `InputError` for a point whose cost or
+/// error is negative or not finite.
 [[nodiscard]] inline std::vector<std::size_t> pareto_front(std::span<const Point> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto fits = [](double value) { return std::isfinite(value) && value >= 0; };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sweeps scenes over their parameters and writes what accuracy costs: docs/measured/tradeoff.md. See --help.
+// Sweeps scenes over their parameters and writes docs/measured/tradeoff.md, which shows what accuracy costs. See
+// --help.
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
       examples::require(!tables || fs::exists(study.out / (name + ".csv")), "there is no table ",
                         (study.out / (name + ".csv")).string(),
                         "; sweep the scene without --tables, or name others by --scene");
-    // What stands in the page of scenes that are not swept stays.
+    // The sections of scenes that are not swept stay in the page.
     std::string page = report::with_opening(study.page(), preface());
     if (page.find("<!-- begin agreement -->") == std::string::npos) page = report::with_section(page, "agreement", "");
     std::vector<Swept> all;

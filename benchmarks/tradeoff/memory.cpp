@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program's own operator new, which counts. So the memory of any scene can be measured, whatever holds it.
+// The program's own operator new, which counts bytes. So the memory of any scene can be measured, whatever allocates
+// it.
 #include <malloc.h>
 
 #include <atomic>

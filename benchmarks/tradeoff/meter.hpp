@@ -11,24 +11,24 @@
 
 namespace tradeoff {
 
-/// Bytes that the program has allocated with `new` and not yet given back (memory.cpp).
+/// Bytes that the program has allocated with `new` and not yet freed (memory.cpp).
 [[nodiscard]] std::size_t allocated_bytes();
-/// The most that this has been since `forget_peak`.
+/// The largest number of allocated bytes since `forget_peak`.
 [[nodiscard]] std::size_t peak_bytes();
 void forget_peak();
 
-/// Counts what a run costs. Make it first in the run: what is allocated from then on and still held
-/// when `hold` or `outcome` is called is the memory of the scene; the most counts.
+/// Counts the cost of a run. Construct it first in the run: the memory of the scene is what has been allocated since
+/// then and is still held when `hold` or `outcome` is called; the largest value counts.
 class Meter {
  public:
   Meter() : bytes_(allocated_bytes()) { forget_peak(); }
 
-  /// Steps cost processor time between `start` and `stop`; what is measured of the scene should not.
+  /// Processor time between `start` and `stop` counts. Enclose the steps, but not the measurements of the scene.
   void start() { begin_ = scenes::processor_seconds(); }
   void stop() { seconds_ += scenes::processor_seconds() - begin_; }
-  /// Says that all is still there whose memory counts.
+  /// Call it when all objects exist whose memory should count.
   void hold() { held_ = std::max(held_, allocated_bytes() - bytes_); }
-  /// The most memory that was held since the meter was made, for scenes of which only that can be seen.
+  /// The largest memory held since the meter was constructed, for scenes that cannot call `hold`.
   [[nodiscard]] std::size_t peak() const { return peak_bytes() - bytes_; }
   /// Counts one step of `particles` particles.
   void count(std::size_t particles) { particle_steps_ += static_cast<double>(particles); }

@@ -13,7 +13,7 @@ namespace tradeoff {
 
 namespace detail {
 
-/// A table of runs, which its first column tells apart.
+/// A table of runs, whose first column distinguishes them.
 [[nodiscard]] inline report::Table runs_table(const Scene& scene, const std::string& first) {
   report::Table table{.header = {first, "particle-steps", "time", "memory"}};
   for (const Quantity& q : scene.quantities)
@@ -46,7 +46,7 @@ inline void add_run(report::Table& table, const Scene& scene, const std::string&
 
 }  // namespace detail
 
-/// The section of a page on this sweep, in Markdown, with a link to the `picture`.
+/// The section of the page about this sweep, in Markdown, with a link to the `picture`.
 [[nodiscard]] inline std::string section(const Scene& scene, const Sweep& sweep, const std::string& picture) {
   const Trial& standard = sweep.standard();
   std::string text =

@@ -10,28 +10,28 @@
 
 #include "tradeoff/sweep.hpp"
 
-/// What follows from a sweep for who has to choose, in sentences. All of them are computed.
+/// Advice that follows from a sweep, in sentences. All of them are computed.
 namespace tradeoff {
 
-/// How a run stands beside another.
+/// How a run compares with another.
 enum class Verdict {
   take,   ///< no error is larger, and it is cheaper
-  buy,    ///< an error is smaller and none larger, for more
-  save,   ///< an error is larger and none smaller, for less
+  buy,    ///< an error is smaller and none larger, at a higher cost
+  save,   ///< an error is larger and none smaller, at a lower cost
   leave,  ///< an error is larger and none smaller, and it is not cheaper
   mixed,  ///< one error is larger, another smaller
   same    ///< neither errors nor cost differ by more than a tenth
 };
 
-/// Whether the error of quantity `q` is smaller (-1), larger (1) or as large as `beside`. What differs by less than a
-/// tenth, or by less than what matters of the quantity, counts as equal.
+/// Whether the error of quantity `q` is smaller (-1) or larger (1) than that of `beside`, or equal (0). Errors that
+/// differ by less than a tenth, or by less than `Quantity::matters`, count as equal.
 [[nodiscard]] inline int compare(const Scene& scene, const Trial& run, const Trial& beside, std::size_t q) {
   const double now = std::abs(run.errors[q]), then = std::abs(beside.errors[q]), least = scene.quantities[q].matters;
   if (now < 0.9 * then && then - now > least) return -1;
   return now > 1.1 * then && now - then > least ? 1 : 0;
 }
 
-/// The cost of a run over that of another: its time, or its particle-steps where nothing is timed more than once.
+/// The ratio of the costs of two runs: of their times, or of their particle-steps if runs are not timed repeatedly.
 [[nodiscard]] inline double relative_cost(const Scene& scene, const Trial& run, const Trial& beside) {
   return scene.repeats > 0 ? run.relative_seconds / beside.relative_seconds
                            : run.outcome.particle_steps / beside.outcome.particle_steps;
@@ -95,8 +95,8 @@ enum class Verdict {
   return text;
 }
 
-/// Whether the error of quantity `q` is at most `limit` per cent in `run` and in all runs that differ from
-/// it only by a finer value of a parameter that refines: so that it is no lucky crossing of zero.
+/// Whether the error of quantity `q` is at most `limit` per cent in `run` and in all runs that differ from it only by a
+/// finer value of a parameter that refines. This excludes errors that happen to cross zero.
 [[nodiscard]] inline bool holds(const Scene& scene, const Sweep& sweep, const Trial& run, std::size_t q, double limit) {
   if (run.failed() || std::abs(run.errors[q]) > limit) return false;
   for (const Parameter& p : scene.parameters) {
@@ -109,7 +109,7 @@ enum class Verdict {
   }
   return true;
 }
-/// Whether nothing finer was run with which `holds` could compare.
+/// Whether there is no finer run with which `holds` could compare.
 [[nodiscard]] inline bool finest(const Scene& scene, const Sweep& sweep, const Trial& run) {
   for (const Parameter& p : scene.parameters)
     for (const Value& value : p.values)
@@ -119,8 +119,8 @@ enum class Verdict {
   return true;
 }
 
-/// For each error that can be asked for, the quickest run that keeps to it; one that a finer run confirms, if there is
-/// any. What is quicker by less than a tenth is not: then the run that comes first in the sweep stands.
+/// For each limit of the error, the quickest run that keeps it, preferably one that a finer run confirms. Runs whose
+/// times differ by less than a tenth count as equally quick; of these, the first in the sweep is taken.
 [[nodiscard]] inline std::vector<std::string> target_rules(const Scene& scene, const Sweep& sweep) {
   std::vector<std::string> rules;
   for (std::size_t q = 0; q < scene.quantities.size(); ++q) {
@@ -136,7 +136,7 @@ enum class Verdict {
               (best == nullptr || (finest(scene, sweep, *best) != confirmed && relative_cost(scene, run, *best) < 0.9)))
             best = &run;
       if (best == nullptr) break;
-      if (best == last) lines.pop_back();  // the stricter limit says more
+      if (best == last) lines.pop_back();  // the line of the stricter limit replaces it
       last = best;
       lines.push_back("**" + scene.quantities[q].name + " within " + rounded(limit) +
                       " %**: " + scene.difference(best->settings, sweep.standard().settings) + "; " +
@@ -149,7 +149,7 @@ enum class Verdict {
   return rules;
 }
 
-/// What halving the spacing costs and brings, wherever two values stand at that ratio.
+/// The cost and the gain of halving the spacing, wherever the sweep has two values with this ratio.
 [[nodiscard]] inline std::vector<std::string> halving_rules(const Scene& scene, const Sweep& sweep) {
   std::vector<std::string> rules;
   for (const Parameter& p : scene.parameters) {
@@ -168,7 +168,7 @@ enum class Verdict {
   return rules;
 }
 
-/// What each value does that differs from the standard alone.
+/// The effect of each value that alone differs from the standard.
 [[nodiscard]] inline std::vector<std::string> single_rules(const Scene& scene, const Sweep& sweep) {
   std::vector<std::string> rules;
   for (const Parameter& p : scene.parameters)

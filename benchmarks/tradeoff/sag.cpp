@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shortest scene, to start one of your own from: a bar of soft tissue, clamped at one end, sags under its weight.
+// The shortest scene, from which to start one of your own: a bar of soft tissue, clamped at one end, sags under its
+// weight.
 #include <algorithm>
 #include <cmath>
 #include <hmps/hmps.hpp>
@@ -30,7 +31,7 @@ Outcome sag_once(const Settings& settings) {
                                     hmps::artificial(young * settings.number("E_hat")));
   const double dt = settings.number("step") * hmps::stable_step(force, x, v, rho, {.spacing = l0, .moves = moves}).step;
 
-  // Kinetic damping: whenever the bar slows down it is stopped, until it sags no further.
+  // Kinetic damping: the bar is stopped whenever it slows down, until it sags no further.
   double before = 0, last = 0;
   for (int steps = 1;; ++steps) {
     meter.start();
@@ -49,7 +50,7 @@ Outcome sag_once(const Settings& settings) {
     }
     rest();
     before = 0;
-    // Where the middle of the end is, by the two last layers.
+    // The position of the middle of the end, from the last two layers.
     double one = 0, two = 0, of_axis = 0;
     for (std::size_t i = 0; i < reference.size(); ++i) {
       const double layer = (length - reference[i][0]) / l0, fall = position[i][2] - reference[i][2];

@@ -13,16 +13,16 @@
 
 namespace tradeoff {
 
-/// A parameter of a scene: what it is varied over, one value being the standard.
+/// A parameter of a scene and the values over which it is varied; one of them is the standard.
 struct Parameter {
   std::string name;
   std::vector<Value> values;  ///< in SI units
   Value standard;             ///< one of them
-  std::string unit = "";      ///< in which it is shown, such as mm
-  double per_unit = 1;        ///< how many SI units that is, such as 1e-3
+  std::string unit = "";      ///< for display, such as mm
+  double per_unit = 1;        ///< size of that unit in SI units, such as 1e-3
   /// Whether a smaller value resolves the same problem better, so that errors should fall with it.
   bool refines = false;
-  bool choice = true;  ///< false: it belongs to the problem, such as a modulus, and is no advice
+  bool choice = true;  ///< false: it belongs to the problem, such as a modulus, and gives no advice
 
   [[nodiscard]] std::string shown(const Value& value) const {
     if (const auto* word = std::get_if<std::string>(&value)) return *word;
@@ -30,33 +30,33 @@ struct Parameter {
   }
 };
 
-/// What is measured of a run and compared with what it should be. The error is shown in per cent of
-/// `scale`, or of the right answer where the scale is 0.
+/// A quantity that is measured in a run and compared with the right answer. The error is shown in per cent of `scale`,
+/// or of the right answer if the scale is 0.
 struct Quantity {
-  std::string name;       ///< in a sentence: "the frequency"
-  std::string unit = "";  ///< in which it is given
+  std::string name;       ///< as used in a sentence: "the frequency"
+  std::string unit = "";  ///< of the values
   double scale = 0;
   double matters = 0.1;  ///< the smallest difference of errors that counts, in per cent
   bool headline = true;  ///< false: only in the CSV
 };
 
-/// What a run gives: the quantities in the order of `Scene::quantities`, and what it cost.
+/// The result of a run: the quantities in the order of `Scene::quantities`, and the cost.
 struct Outcome {
   std::vector<double> values;
   double particle_steps = 0;
-  double seconds = 0;     ///< of one processor
+  double seconds = 0;     ///< of processor time
   std::size_t bytes = 0;  ///< of memory held while stepping
 };
 
-/// A scene to be swept. An aggregate, so that one of your own is a function that fills it in:
-/// sag.cpp is the shortest example.
+/// A scene to be swept. It is an aggregate: to make one of your own, write a function that fills it in. sag.cpp is the
+/// shortest example.
 ///
-/// `run(settings)` builds the scene from scratch, runs it and returns its `Outcome`. It throws `hmps::StateError`
-/// where the simulation broke down and `hmps::InputError` where settings do not go together; both become a line
-/// of the table. A value that is not finite is refused.
+/// `run(settings)` builds the scene from scratch, runs it and returns its `Outcome`. It throws `hmps::StateError` if
+/// the simulation breaks down and `hmps::InputError` if settings are incompatible; both become a line of the table. A
+/// value that is not finite is refused.
 ///
-/// What is right is said by `known(settings)`, in the order of the quantities, or else measured at the settings
-/// `reference`, which should be much finer than all others.
+/// `known(settings)` returns the right answers in the order of the quantities. Without it, they are measured with the
+/// settings `reference`, which should be much finer than all others.
 struct Scene {
   std::string name;         ///< of files and of --scene
   std::string title;        ///< of the section
@@ -68,7 +68,7 @@ struct Scene {
   std::function<Outcome(const Settings&)> run;
   std::function<std::vector<double>(const Settings&)> known = {};
   std::optional<Settings> reference = {};
-  int repeats = 5;  ///< how often short runs are timed, each time beside the standard one
+  int repeats = 5;  ///< how often short runs are timed, each time beside a run of the standard
 
   [[nodiscard]] Settings standard() const {
     Settings settings;
@@ -80,7 +80,7 @@ struct Scene {
       if (p.name == wanted) return p;
     throw hmps::InputError(examples::message("tradeoff: the scene ", name, " has no parameter ", wanted));
   }
-  /// Whether the settings keep to the problem: only choices differ from the standard.
+  /// Whether the settings belong to the same problem, that is, only choices differ from the standard.
   [[nodiscard]] bool same_problem(const Settings& settings) const {
     for (const Parameter& p : parameters)
       if (!p.choice && settings.at(p.name) != p.standard) return false;

@@ -16,7 +16,7 @@ namespace tradeoff {
 
 using report::bullets, report::bytes, report::counted, report::rounded, report::wrapped;
 
-/// What a parameter can be set to: a number in SI units, or a word such as the name of a kernel.
+/// The value of a parameter: a number in SI units, or a word such as the name of a metaball.
 using Value = std::variant<double, std::string>;
 
 /// One value for each parameter of a scene, by name, in the order in which they were given.
@@ -32,7 +32,7 @@ class Settings {
                       "; name it among the scene's parameters");
     return found->second;
   }
-  /// Throw `InputError` if there is no such parameter or it is of the other kind.
+  /// Throw `InputError` if there is no such parameter or its value is of the other kind.
   [[nodiscard]] double number(std::string_view name) const { return as<double>(name, "a number"); }
   [[nodiscard]] const std::string& word(std::string_view name) const { return as<std::string>(name, "a word"); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Case X1 of the swallow of examples/swallowing, by its own parts: when does the epiglottis fold, and how far?
+// Case X1 of the swallow, run with the parts of examples/swallowing: when does the epiglottis fold, and how far?
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* which = "X1";
 
-/// Runs the case into `folder`. What was run there with the same settings is taken up where it ended, so that a
-/// sweep can be interrupted; what was run with others, or with other tracks of the motion, is replaced.
+/// Runs the case and writes to `folder`. A run there with the same settings is continued where it ended, so that a
+/// sweep can be interrupted; a run with other settings, or with other tracks of the motion, is replaced.
 swallowing::Summary run_into(const fs::path& folder, swallowing::Options options) {
   options.out = folder.string();
   options.cases = {which};
@@ -66,7 +66,7 @@ Outcome swallow_once(const Settings& settings, const Scale& scale, double until)
   return outcome;
 }
 
-/// The finest result of the whole case below `folder`, if one is finer than `spacing`.
+/// The finest complete result of the case in the folders below `folder`, if one is finer than `spacing`.
 std::optional<swallowing::Summary> finer_result(const fs::path& folder, double spacing) {
   std::optional<swallowing::Summary> finest;
   if (!fs::is_directory(folder)) return finest;

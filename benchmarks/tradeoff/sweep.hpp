@@ -21,25 +21,25 @@ struct Trial {
   Outcome outcome;              ///< without values if the run failed
   std::vector<double> exact;    ///< what the values should be
   std::vector<double> errors;   ///< signed, in per cent
-  double relative_seconds = 0;  ///< over those of the standard, measured beside it
-  std::string failure = {};     ///< why there is no outcome
+  double relative_seconds = 0;  ///< relative to the standard, measured beside it
+  std::string failure = {};     ///< reason if there is no outcome
 
   [[nodiscard]] bool failed() const { return !failure.empty(); }
 };
 
-/// A scene that was swept. The first run is the standard.
+/// The runs of a scene. The first run is the standard.
 struct Sweep {
   std::vector<Trial> runs;
 
   [[nodiscard]] const Trial& standard() const { return runs.front(); }
-  /// The run of these settings, or nullptr.
+  /// The run with these settings, or nullptr.
   [[nodiscard]] const Trial* find(const Settings& settings) const {
     const auto found = std::find_if(runs.begin(), runs.end(), [&](const Trial& r) { return r.settings == settings; });
     return found == runs.end() ? nullptr : &*found;
   }
 };
 
-/// What a run can cost, for the fronts.
+/// A kind of cost, for the fronts.
 struct Cost {
   const char* name;
   double (*of)(const Trial&);
@@ -51,8 +51,8 @@ inline constexpr Cost costs[] = {
 };
 inline constexpr const Cost& seconds_cost = costs[1];
 
-/// The runs on the front of the error of quantity `q` against `cost`, by rising cost. Those of another
-/// problem do not compete.
+/// The runs on the front of the error of quantity `q` against `cost`, by rising cost. Runs of another problem are left
+/// out.
 [[nodiscard]] inline std::vector<const Trial*> front(const Scene& scene, const Sweep& sweep, std::size_t q,
                                                      const Cost& cost) {
   std::vector<const Trial*> good, chosen;
@@ -66,11 +66,11 @@ inline constexpr const Cost& seconds_cost = costs[1];
   return chosen;
 }
 
-/// The runs stay in the sweep, which must outlive the front.
+/// The result points to runs of the sweep, which must outlive it.
 std::vector<const Trial*> front(const Scene&, Sweep&&, std::size_t, const Cost&) = delete;
 
-/// The settings that a sweep runs: the standard, all combinations of the crossed parameters, and every
-/// other value alone. None twice.
+/// The settings that a sweep runs: the standard, all combinations of the crossed parameters, and every other value
+/// alone. No combination occurs twice.
 [[nodiscard]] inline std::vector<Settings> plan(const Scene& scene) {
   std::vector<Settings> grid{scene.standard()};
   for (const std::string& name : scene.crossed) {
@@ -112,7 +112,7 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
 
 }  // namespace detail
 
-/// Runs the scene at one setting. `exact` is empty where the scene knows the answer itself.
+/// Runs the scene with one combination of settings. `exact` is empty if the scene knows the answer itself.
 [[nodiscard]] inline Trial run_once(const Scene& scene, const Settings& settings, const std::vector<double>& exact) {
   Trial run{settings, {}, exact, {}, 1, {}};
   try {
@@ -135,9 +135,9 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
 }
 
 /// Sweeps a scene. Each run is timed by the processor's clock beside a run of the standard, up to
-/// `repeats` times within about two seconds, and the median of the ratios is kept, so that what else the
-/// machine does disturbs little. `log` gets a line per run.
-/// Throws `InputError` if the standard fails or a run repeated gives other values.
+/// `repeats` times within about two seconds, and the median of the ratios is kept, so that other load of the machine
+/// has little effect. `log` is called with a line per run. Throws `InputError` if the standard fails or a repeated run
+/// gives other values.
 [[nodiscard]] inline Sweep sweep(const Scene& scene, const std::function<void(const std::string&)>& log) {
   Sweep result;
   examples::require(scene.known != nullptr || scene.reference.has_value(), "tradeoff: the scene ", scene.name,
@@ -160,7 +160,7 @@ inline void check(const Scene& scene, const Settings& settings, const std::vecto
       double spent = 0;
       for (int k = 0; k < scene.repeats && (k == 0 || spent < 2); ++k) {
         const double standard = scene.run(scene.standard()).seconds;
-        // The first repetition pairs the run that is there already, unless it was so short that it counts for nothing.
+        // The first repetition uses the run that exists already, unless it was too short for timing.
         const Outcome again = k == 0 && run.outcome.seconds > 0.5 ? run.outcome : scene.run(settings);
         examples::require(again.values == run.outcome.values, "tradeoff: the scene ", scene.name,
                           " gave other values at ", scene.difference(settings, scene.standard()),

@@ -11,10 +11,10 @@
 #include "report/table.hpp"
 #include "tradeoff/sweep.hpp"
 
-/// A sweep as a table of comma-separated values, from which it can be had again without running anything.
+/// A sweep as a table of comma-separated values, from which it can be restored without running anything.
 namespace tradeoff {
 
-/// All runs, one a line: settings in SI units, values, right answers, errors in per cent, costs, why it failed.
+/// All runs, one per line: settings in SI units, values, right answers, errors in per cent, costs, reason of a failure.
 [[nodiscard]] inline std::string csv(const Scene& scene, const Sweep& sweep) {
   using report::in_full, report::in_quotes;
   report::Cells head;
@@ -49,7 +49,7 @@ namespace tradeoff {
   return text;
 }
 
-/// What `csv` wrote. Throws `InputError` if the table is not one of this scene.
+/// Reads what `csv` wrote. Throws `InputError` if the table is not one of this scene.
 [[nodiscard]] inline Sweep read_csv(const Scene& scene, std::string_view text) {
   const auto lines = report::read_csv(text);
   const std::size_t width = scene.parameters.size() + 3 * scene.quantities.size() + 5;

@@ -26,8 +26,8 @@ std::vector<hmps::Vector<double, D>> cloud(const Shape& shape, double l0, double
   return points;
 }
 
-/// The largest error of F in a body under an affine map, and the largest elastic force on particles more than
-/// four spacings inside its surface, over |P| / l0.
+/// The largest error of F in a body under an affine map, and the largest elastic force, relative to |P| / l0, on
+/// particles more than four spacings inside its surface.
 struct PatchError {
   double gradient = 0, force = 0;
   std::size_t particles = 0;
@@ -82,7 +82,7 @@ Measured affine(int size, const Method&) {
   return {l0, lattice.particles, {std::max(lattice.gradient, jittered.gradient), lattice.force, jittered.force}};
 }
 
-/// Turns and moves bodies, by lattice bonds and lists of bonds.
+/// Rotates and translates bodies, with lattice bonds and with lists of bonds.
 template <int D>
 void turn(double l0, double& stress, double& force_density, std::size_t& particles) {
   using Vector = hmps::Vector<double, D>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bars in three dimensions without viscosity: free ones that vibrate, a column that is thrown sideways.
+// Bars in three dimensions without viscosity: free bars that vibrate, and a column that is thrown sideways.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -47,7 +47,7 @@ hmps::MooneyRivlin<> rubber(double ratio) {
   const double shear = 7e3;
   return {shear / 4, shear / 4, ratio * shear / 2};
 }
-/// Of the first bending mode of a free bar, in Hz.
+/// The frequency of the first bending mode of a free bar, in Hz.
 double beam_frequency(const hmps::MooneyRivlin<>& law) {
   const double bulk = law.bulk_modulus(), shear = law.shear_modulus();
   return scenes::timoshenko_frequency({.length = rubber_length,
@@ -130,7 +130,7 @@ Problem free_bar() {
 }
 
 Problem rubber_bar() {
-  // Beam theory of the bar of problem 6, for which there is an answer of finite elements.
+  // Beam theory for the bar of problem 6, for which there is also an answer by finite elements.
   const double theory = scenes::timoshenko_frequency(
       {.length = 0.5, .height = 0.05, .young = 1e5, .poisson = 0.3, .density = 1000}, scenes::End::free);
   Problem problem{

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contact by metaballs at rest: two blocks that are pressed together, and a sphere in a block.
+// Contact by metaballs at rest: two blocks that are pressed together, and a sphere pressed into a block.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,9 +12,9 @@
 namespace verification {
 namespace {
 
-/// The contact between two bodies in the same arrays, the first `first` particles being the lower one. `depth(i)`: how
-/// many spacings particle i lies below the face that may touch. The penalty is four times as stiff as a layer of
-/// particles of Young's modulus `young`.
+/// The contact between two bodies in the same arrays, of which the first `first` particles are the lower one.
+/// `depth(i)` is the depth in spacings of particle i below the face that may touch. The penalty is four times as stiff
+/// as a layer of particles of Young's modulus `young`.
 template <int D, class Depth>
 hmps::MetaballContact<double, D> contact_between(const Body<D>& body, std::size_t first, double young, Depth&& depth,
                                                  bool rigid_upper) {
@@ -34,7 +34,7 @@ hmps::MetaballContact<double, D> contact_between(const Body<D>& body, std::size_
   return contact;
 }
 
-/// The penalty is fixed and friction is none, so that the step given to the contact means nothing.
+/// The penalty coefficient is fixed and there is no friction, so the step that is passed to contact has no effect.
 constexpr double any_step = 1e-9;
 
 Measured press(int n, const Method& method) {
@@ -67,7 +67,7 @@ Measured press(int n, const Method& method) {
     std::vector<double> column(static_cast<std::size_t>(2 * n), 0);
     for (std::size_t i = first; i < body.size(); ++i)
       column[static_cast<std::size_t>(body.reference[i][0] / l0)] += body.load[i][1] * l0;
-    const auto spread = [&](std::size_t edge) {  // over all but so many columns at either side
+    const auto spread = [&](std::size_t edge) {  // over all columns except `edge` at either side
       double mean = 0, squares = 0;
       const auto count = static_cast<double>(column.size() - 2 * edge);
       for (std::size_t k = edge; k + edge < column.size(); ++k) mean += column[k] / count;
@@ -81,8 +81,8 @@ Measured press(int n, const Method& method) {
 /// A rigid sphere of 20 mm on a layer of the seed law.
 constexpr double sphere = 0.02, thickness = 0.02, half_width = 0.032;
 
-/// Hertz for an incompressible half-space, times what a bonded layer of the thickness h adds by Dimitriadis et al.
-/// (2002): with chi = sqrt(R delta) / h, 1 + 1.133 chi + 1.283 chi^2 + 0.769 chi^3 + 0.0975 chi^4.
+/// Hertz's force for an incompressible half-space, times the factor of Dimitriadis et al. (2002) for a bonded layer of
+/// the thickness h: with chi = sqrt(R delta) / h, 1 + 1.133 chi + 1.283 chi^2 + 0.769 chi^3 + 0.0975 chi^4.
 double indentation(double delta) {
   const double young = young_of(tissue), poisson = 0.5 - young / (6 * tissue.bulk_modulus());
   const double chi = std::sqrt(sphere * delta) / thickness;
@@ -97,7 +97,8 @@ Measured indent(int n, const Method& method) {
   const hmps::Box<double, 3> layer{Vector(-across, -across, -thickness - method.held * l0), Vector(across, across, 0)};
   auto points = hmps::fill_lattice(layer, layer, l0, Vector(Vector::Constant(l0 / 2)));
   const std::size_t first = points.size();
-  // Of the sphere three shells, evenly covered by a spiral, the first half a spacing inside its surface.
+  // The sphere consists of three shells, evenly covered by a spiral; the first one lies half a spacing inside the
+  // surface.
   const Vector centre(0, 0, sphere);
   for (int shell = 0; shell < 3; ++shell) {
     const double radius = sphere - (shell + 0.5) * l0;

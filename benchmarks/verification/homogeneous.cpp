@@ -35,7 +35,8 @@ Tensor<3> free_stretch(double stretch, int stretched) {
 }
 
 /// A box of `n` free particles along each axis, continued by two held layers in both directions along the axes below
-/// `bounded`. The held ones are put where `F` takes them, the free ones near it, and left to find their rest.
+/// `bounded`. The held particles are placed at the positions given by `F`; the free ones start close to theirs and are
+/// brought to rest.
 Body<3> at_rest(int n, const Method& method, const Tensor<3>& F, int bounded) {
   const double l0 = 1e-3;
   hmps::Vector<double, 3> lower = hmps::Vector<double, 3>::Zero(), upper = hmps::Vector<double, 3>::Constant(n * l0);
@@ -57,7 +58,7 @@ Body<3> at_rest(int n, const Method& method, const Tensor<3>& F, int bounded) {
   return body;
 }
 
-/// A homogeneous state of stress: the components (r, c) of Cauchy's stress at some strains, and what they should be.
+/// A homogeneous state of stress: the components (r, c) of Cauchy's stress at some strains, and the right answers.
 struct Case {
   Tensor<3> F;
   int r, c;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Problems with known answers, refined: writes docs/measured/verification.md. See --help.
+// Solves problems with known answers at increasing resolution and writes docs/measured/verification.md. See --help.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -16,11 +16,11 @@ namespace {
 
 using namespace verification;
 
-/// How many runs a problem has.
+/// The number of runs of a problem.
 std::size_t runs_of(const Problem& problem) { return problem.methods.size() * problem.sizes.size(); }
 
-/// All problems with their runs: those of `wanted` problems anew, the others from the table `old`. The table in `file`
-/// is written after each problem, so that nothing is lost if the next one is stopped.
+/// All problems with their runs: problems that are `wanted` are run, the others are read from the table `old`. The
+/// table in `file` is written after each problem, so that nothing is lost if the program is stopped.
 std::vector<Solved> solve_all(const std::vector<Problem>& all, const std::string& old,
                               const std::filesystem::path& file, const std::function<bool(const Problem&)>& wanted) {
   std::vector<Solved> solved;
@@ -70,10 +70,10 @@ int main(int argc, char** argv) {
     };
     const std::filesystem::path table = study.out / "verification.csv",
                                 beside = std::filesystem::path(study.document).parent_path() / "verification.csv";
-    // On a fresh clone, the table is beside the page alone.
+    // In a fresh clone, the table exists only beside the page.
     const auto& known = std::filesystem::exists(table) || study.document.empty() ? table : beside;
     const std::string old = std::filesystem::exists(known) ? examples::read_file(known) : "";
-    // The page is of all problems, but for that of a quick run, which nobody keeps.
+    // The page must contain all problems, except that of a quick run, which nobody keeps.
     if (tables || !(study.document.empty() || study.quick))
       for (const Problem& problem : all)
         examples::require(wanted(problem) || read_trials(problem, old).size() == runs_of(problem), known.string(),

@@ -12,13 +12,12 @@
 /// The variants of the method that are compared, and the body that they act on.
 namespace verification {
 
-/// A variant of the method. One more is one more line in `methods`, and a branch in `with_force` where it takes other
-/// terms.
+/// A variant of the method. To add one, add a line to `methods`, and a branch to `with_force` if it uses other terms.
 struct Method {
   std::string name;
   double over_shear = 0;         ///< E_hat over the shear modulus; 0: the paper's choice, Young's modulus
   int held = 1;                  ///< layers of held particles beyond a fixed face
-  bool mean_dilatation = false;  ///< whether the bulk modulus is shared out by `split_bulk_modulus`
+  bool mean_dilatation = false;  ///< whether the bulk modulus is split by `split_bulk_modulus`
 };
 
 inline const Method paper{.name = "E_hat = E"};
@@ -28,7 +27,8 @@ inline const Method two_layers{
 inline const Method mean_dilatation{
     .name = "E_hat = 4/3 mu, mean dilatation", .over_shear = hmps::shear_wave_modulus(1.0), .mean_dilatation = true};
 inline const Method soft{.name = "E_hat = mu, mean dilatation", .over_shear = 1, .mean_dilatation = true};
-/// All of them that differ from each other in a problem, by whether a face is fixed and the volume is stiff.
+/// The variants that differ from each other in a problem, which depends on whether a face is fixed and whether the bulk
+/// modulus is high.
 inline const std::vector<Method> methods{paper, shear_wave};
 inline const std::vector<Method> clamped_methods{paper, shear_wave, two_layers};
 inline const std::vector<Method> bulky_methods{paper, shear_wave, mean_dilatation};
@@ -49,8 +49,8 @@ template <class Law>
 
 using scenes::Body;
 
-/// Particles at the centres of the cells of a cubic lattice that fill [0, n0 l0] x [0, n1 l0] (x ...), and `below` and
-/// `above` layers more along the first axis.
+/// Particles at the centres of the cells of a cubic lattice that fill [0, n0 l0] x [0, n1 l0] (x ...), with `below` and
+/// `above` more layers along the first axis.
 template <int D>
 [[nodiscard]] std::vector<hmps::Vector<double, D>> cells(double l0, const std::array<int, D>& n, int below = 0,
                                                          int above = 0) {
@@ -73,8 +73,8 @@ template <int D>
   return law;
 }
 
-/// Calls `use(force)` with the internal force of the particles that `bonds` hold together, by `method`; the force keeps
-/// their deformation gradients in `F`.
+/// Calls `use(force)` with the internal force by `method` of the particles that `bonds` connects; the force writes
+/// their deformation gradients to `F`.
 template <hmps::Bonds B, class Law, class Use>
 decltype(auto) with_force(const Method& method, const hmps::MatrixView<double, B::dimension>& F, const B& bonds,
                           const Law& law, Use&& use) {
@@ -93,10 +93,10 @@ decltype(auto) with_force(const Method& method, const hmps::MatrixView<double, B
 }
 
 /// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced
-/// forces are `tolerance` times `load` (N, in two dimensions N/m; 0: what the others carry).
+/// forces are `tolerance` times `load` (N, in two dimensions N/m; 0: the force that the other particles carry).
 template <int D, class Force, class Moves>
 hmps::Relaxation settle(Body<D>& body, Force&& force, Moves&& moves, double load, double tolerance) {
-  constexpr double density = 1000;  // means nothing in statics
+  constexpr double density = 1000;  // has no effect in statics
   return hmps::relax(force, body.x(), body.v(), body.f(), density,
                      {.spacing = body.spacing, .tolerance = tolerance, .load = load, .moves = moves});
 }

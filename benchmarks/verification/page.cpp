@@ -18,8 +18,8 @@ std::string percent(double error) {
   return (error > 0 ? "+" : "") + report::digits(100 * error, 2) + " %";
 }
 
-/// What a method made of a quantity: the largest error where it should be right at any spacing, otherwise that of the
-/// finest and the order.
+/// The result of a method for a quantity: the largest error if the method should be right at any spacing, otherwise the
+/// error at the finest spacing and the order.
 std::string verdict(const Solved& solved, const std::string& method, std::size_t q) {
   const Quantity& quantity = solved.problem.quantities[q];
   const Curve all = curve(solved, method, q, Sizes::all);
@@ -39,7 +39,7 @@ std::string verdict(const Solved& solved, const std::string& method, std::size_t
   return part(Sizes::odd, "odd ") + "<br>" + part(Sizes::even, "even ");
 }
 
-/// The order of the error of quantity `q` between two trials, where both mean something and have one sign.
+/// The order of the error of quantity `q` between two trials, if both are meaningful and have the same sign.
 std::string order_of(const Quantity& quantity, std::size_t q, const Trial* before, const Trial& trial) {
   if (before == nullptr || !before->failure.empty()) return "-";
   const double earlier = quantity.error(before->measured.values[q]), error = quantity.error(trial.measured.values[q]);
@@ -75,7 +75,7 @@ std::string table(const Solved& solved) {
   return runs.markdown();
 }
 
-/// `seconds`: what the runs took.
+/// `seconds`: duration of all runs.
 std::string preface(double seconds) {
   std::string text = "# Problems with known answers\n\n";
   text += wrapped(
@@ -109,7 +109,7 @@ std::string preface(double seconds) {
          '\n';
 }
 
-/// The methods that the picture shows, and in which colours.
+/// The methods that the picture shows, and their colours.
 const std::vector<std::pair<Method, Colour>> drawn{{paper, Colour::hex(0xc0392b)},
                                                    {shear_wave, Colour::hex(0x1f5f99)},
                                                    {two_layers, Colour::hex(0x9cc4e0)},

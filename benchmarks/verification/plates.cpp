@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plates in plane strain that are clamped at one end and swing, without viscosity.
+// Plates in plane strain that are clamped at one end and vibrate, without viscosity.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace verification {
 namespace {
 
-/// A plate in plane strain, clamped at x = 0, or what moves it.
+/// A plate in plane strain, clamped at x = 0.
 struct Plate {
   double length, height, young, poisson, density;
 
   [[nodiscard]] auto law() const { return hmps::SaintVenantKirchhoff<>::from_young(young, poisson); }
-  /// Of its first mode: that of a beam with the moduli of plane strain.
+  /// The frequency of its first mode, which is that of a beam with the moduli of plane strain.
   [[nodiscard]] double frequency() const {
     return scenes::timoshenko_frequency({.length = length,
                                          .height = height,
@@ -50,7 +50,7 @@ Measured swing(int n, const Method& method) {
       return shape;
     };
     measured.values.push_back(1 / frequency(body, force, plate.density, moves, start(1e-3)));
-    // The large one: v_f = 0.05 of the speed of sound sqrt(K / rho).
+    // The large vibration: v_f = 0.05 of the speed of sound sqrt(K / rho).
     body.position = body.reference;
     body.velocity = start(0.05 * std::sqrt(plate.law().bulk_modulus() / plate.density));
     Crossings crossings;
@@ -78,7 +78,8 @@ Measured wave_flag(int n, const Method& method) {
       internal(x, v, f);
       for (std::size_t i = 0; i < f.size(); ++i) f(i, 1) -= flag.density * gravity;
     };
-    // Released at rest: the end swings between 0 and its lowest place. The period is that of passing the middle.
+    // Released at rest: the end swings between 0 and its lowest position. The period is measured between passages of
+    // the middle.
     const double middle = -0.06396;
     double most = -1, least = 0;
     Crossings crossings;

@@ -15,8 +15,9 @@ namespace {
 using Vector = hmps::Vector<double, 2>;
 using Tensor = hmps::Matrix<double, 2>;
 
-/// The outward area of each particle's surface per volume, in 1/m: b such that a uniform stress P is in equilibrium
-/// with the force densities P b, which vanish inside. Over the particles below a face they add up to its area.
+/// The outward surface area of each particle per volume, in 1/m: vectors b such that a uniform stress P is in
+/// equilibrium with the force densities P b. They vanish inside, and over the particles below a face they add up to its
+/// area.
 std::vector<Vector> surface(const hmps::LatticeBonds<double, 2>& bonds) {
   std::vector<Vector> b(bonds.size(), Vector::Zero());
   for (std::size_t i = 0; i < b.size(); ++i)
@@ -32,10 +33,10 @@ Vector near(const Body<2>& body, const Vector& point) {
   return body.displacement(i) + (body.gradient[i] - Tensor::Identity()) * (point - body.reference[i]);
 }
 
-/// The rubber of rows 15 and 16, of which their answers are the incompressible limit.
+/// The rubber of problems 15 and 16, whose answers are those of the incompressible limit.
 const hmps::MooneyRivlin<> rubber{80e6, 20e6, 1e11};
 
-/// Adds Cauchy's stress `share` * `sigma` on the faces whose areas are `b`.
+/// Adds the load of Cauchy's stress `share` * `sigma` on the faces whose areas are `b`.
 auto with_pressure(auto& internal, Body<2>& body, const std::vector<Vector>& b, const Tensor& sigma,
                    const double& share) {
   return [&internal, &body, &b, &share, sigma](const auto& x, const auto& v, const auto& f) {
@@ -108,7 +109,8 @@ Measured cook(int n, const Method& method) {
   Body<2> body(l0, hmps::fill_lattice(panel, box, l0, Vector(Vector::Constant(l0 / 2))));
   const auto moves = [&](std::size_t i) { return body.reference[i][0] > 0; };
   const hmps::LatticeBonds<double, 2> bonds(body.X(), {.spacing = l0});
-  // What carries the load: the two columns at its face, less the steps of the sloping faces near them.
+  // The weights with which the two columns at the loaded face carry the load; the steps of the sloping faces near them
+  // do not count.
   std::vector<double> share(body.size(), 0);
   double total = 0;
   for (std::size_t i = 0; i < body.size(); ++i) {

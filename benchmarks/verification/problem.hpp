@@ -9,61 +9,61 @@
 
 #include "verification/method.hpp"
 
-/// Problems with known answers: what is asked, what is right, and what the method says at some spacings.
+/// Problems with known answers: the quantities, the right answers, and the results of the method at some spacings.
 namespace verification {
 
-/// What is compared. The error is relative to the right answer, so that it is negative where too little comes out, or
-/// to `scale` where that is given.
+/// A quantity that is compared. The error is relative to the right answer, and negative if the result is too small; or
+/// it is relative to `scale`, if that is given.
 struct Quantity {
-  std::string name;        ///< in a sentence: "the sag of the end"
-  std::string unit;        ///< in which it is shown
+  std::string name;        ///< as used in a sentence: "the sag of the end"
+  std::string unit;        ///< for display
   double answer;           ///< the right one, in that unit
   std::string source;      ///< exact, beam theory, finite elements, published
-  double uncertainty = 0;  ///< of the answer, in its unit: no smaller error means anything
-  double scale = 0;        ///< what the error is a share of, in its unit, if not of the answer
-  double bound = 0;        ///< what no error exceeds at any size, if the method should be right; else 0
+  double uncertainty = 0;  ///< of the answer, in its unit; smaller errors have no meaning
+  double scale = 0;        ///< reference of the error in its unit, if that is not the answer
+  double bound = 0;        ///< of the error at all sizes, if the method should be right; otherwise 0
 
   [[nodiscard]] double error(double value) const { return (value - answer) / (scale > 0 ? scale : answer); }
   [[nodiscard]] double resolution() const { return uncertainty / (scale > 0 ? scale : std::abs(answer)); }
 };
 
-/// What a run gave: the spacing and the quantities in the order of `Problem::quantities`.
+/// The result of a run: the spacing and the quantities in the order of `Problem::quantities`.
 struct Measured {
   double spacing;  ///< m
   std::size_t particles;
   std::vector<double> values;
 };
 
-/// A problem. An aggregate, so that one of your own is a function that fills it in.
+/// A problem. It is an aggregate: to make one of your own, write a function that fills it in.
 struct Problem {
-  std::string name;   ///< of the table, the panel and --only
+  std::string name;   ///< for the table, the panel and --only
   std::string title;  ///< of the section
-  std::string text;   ///< what is simulated, how, and what it is compared with
+  std::string text;   ///< what is simulated, how, and with what it is compared
   std::vector<Quantity> quantities;
   std::string across;      ///< what the sizes count, such as "particles across the height"
-  std::vector<int> sizes;  ///< to be run, growing: the larger, the finer
+  std::vector<int> sizes;  ///< to be run, in increasing order: the larger, the finer
   std::vector<Method> methods;
   std::function<Measured(int size, const Method&)> run;
   bool parity = false;      ///< whether odd and even sizes form two sequences
-  std::string remark = "";  ///< where it is wrong, and why
+  std::string remark = "";  ///< where the method is wrong, and why
 };
 
-/// A problem at one size by one method. `failure` says why there is none.
+/// The run of a problem at one size by one method. `failure` is the reason if there is no result.
 struct Trial {
   std::string method;
   int size;
   Measured measured;
-  double seconds;  ///< of one processor
+  double seconds;  ///< of processor time
   std::string failure = "";
 };
 
-/// The order of convergence between two spacings: log(e1 / e2) / log(h1 / h2). Not a number where an error is zero.
+/// The order of convergence between two spacings: log(e1 / e2) / log(h1 / h2). NaN if an error is zero.
 [[nodiscard]] inline double order_between(double coarse, double coarse_error, double fine, double fine_error) {
   return std::log(std::abs(coarse_error / fine_error)) / std::log(coarse / fine);
 }
 
 /// The exponent p of the fit |error| = c h^p by least squares of logarithms over all points whose error exceeds
-/// `resolution`. Not a number where there are fewer than three.
+/// `resolution`. NaN if there are fewer than three such points.
 [[nodiscard]] inline double fitted_order(const std::vector<double>& spacings, const std::vector<double>& errors,
                                          double resolution) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

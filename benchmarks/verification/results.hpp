@@ -14,7 +14,7 @@
 #include "report/text.hpp"
 #include "verification/problem.hpp"
 
-/// What the problems gave: runs, the table of all of them in a file, orders of convergence.
+/// The results of the problems: runs, the file with the table of all runs, orders of convergence.
 namespace verification {
 
 /// A problem and its runs, in the order of methods and sizes.
@@ -23,7 +23,7 @@ struct Solved {
   std::vector<Trial> trials;
 };
 
-/// One run. Where it breaks down the trial says why.
+/// One run. If it breaks down, the trial contains the reason.
 [[nodiscard]] inline Trial solve(const Problem& problem, int size, const Method& method) {
   Trial trial{method.name, size, {}, 0};
   const std::clock_t start = std::clock();
@@ -104,7 +104,7 @@ enum class Sizes { all, odd, even };
   return found;
 }
 
-/// The order of a curve for people, or why there is none.
+/// The order of a curve as text, or the reason why there is none.
 [[nodiscard]] inline std::string order_text(const Curve& curve, double resolution) {
   std::size_t counted = 0;
   bool above = false, below = false;

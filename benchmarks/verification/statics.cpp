@@ -28,7 +28,7 @@ Measured sag(int n, const Method& method) {
   return {l0, body.size(), {1e3 * end[2], 1e3 * end[0]}};
 }
 
-/// A cube between plates along the first axis, the upper of which is moved by `shift` (m) in ten parts.
+/// A cube between plates that face each other along the first axis. The upper one is moved by `shift` (m) in ten parts.
 Measured bonded(int n, const Method& method, const Vector& shift, bool shear) {
   constexpr double side = 0.024;
   const double l0 = side / n;

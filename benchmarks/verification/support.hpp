@@ -14,7 +14,7 @@ namespace verification {
 /// The paper's soft tissue, here called the seed law: kappa / mu = 300.
 inline const hmps::MooneyRivlin<> tissue{5000.0 / 3, 5000.0 / 3, 1e6};
 
-/// A number in [-1, 1] that depends on its arguments alone and looks like noise.
+/// A pseudo-random number in [-1, 1] that depends only on the arguments.
 [[nodiscard]] inline double noise(std::size_t i, int c) {
   return std::sin(12.9898 * static_cast<double>(i) + 78.233 * (c + 1));
 }
@@ -29,7 +29,7 @@ template <int D>
 }
 
 /// The displacement at `point` of a box of `n` cells whose corner is the origin: linear between the two nearest layers
-/// along each axis and beyond, since the outermost particles lie half a spacing inside the faces.
+/// along each axis and extrapolated beyond them, because the outermost particles lie half a spacing inside the faces.
 template <int D>
 [[nodiscard]] hmps::Vector<double, D> displacement_at(const Body<D>& body, const std::array<int, D>& n,
                                                       const hmps::Vector<double, D>& point) {
@@ -49,8 +49,8 @@ template <int D>
   return sum;
 }
 
-/// March `body` by symplectic Euler at 0.75 of the stable step until `watch(t)` says no more. Particles for which
-/// `moves(i)` does not hold stay. Throws `StateError` where it breaks down.
+/// Advances `body` by symplectic Euler at 0.75 of the stable step until `watch(t)` returns false. Particles for which
+/// `moves(i)` is false stay in place. Throws `StateError` if the run breaks down.
 template <int D, class Force, class Moves, class Watch>
 void march(Body<D>& body, Force&& force, double density, Moves&& moves, Watch&& watch) {
   const double dt =
@@ -67,10 +67,10 @@ void march(Body<D>& body, Force&& force, double density, Moves&& moves, Watch&& 
   }
 }
 
-/// When a coordinate passes zero, interpolated between steps.
+/// The times at which a coordinate passes zero, interpolated between steps.
 class Crossings {
  public:
-  /// Adds a value; false as soon as it has passed zero `wanted` times.
+  /// Adds a value; returns false as soon as the values have passed zero `wanted` times.
   bool add(double time, double value, std::size_t wanted) {
     if (last_time_ > 0 && (value > 0) != (last_ > 0))
       times_.push_back(time - (time - last_time_) * value / (value - last_));
@@ -78,7 +78,7 @@ class Crossings {
     last_time_ = time;
     return times_.size() < wanted;
   }
-  /// From the first to the last.
+  /// The time from the first passage to the last.
   [[nodiscard]] double span() const { return times_.back() - times_.front(); }
 
  private:

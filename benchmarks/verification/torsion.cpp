@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rivlin's torsion of a cylinder, of which the lattice makes a prism with steps.
+// Rivlin's torsion of a cylinder, which becomes a prism with steps on the lattice.
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +14,8 @@ constexpr int held = 2;
 
 Measured wring(int size, const Method& method) {
   using Vector = hmps::Vector<double, 3>;
-  // Cells whose centre lies within size / 2 spacings of the axis, which is that of a cell or a corner.
+  // Cells whose centre lies within size / 2 spacings of the axis, which passes through the centre or a corner of a
+  // cell.
   std::vector<Vector> section;
   for (int j = -size; j <= size; ++j)
     for (int k = -size; k <= size; ++k) {
@@ -35,7 +36,7 @@ Measured wring(int size, const Method& method) {
   const auto moves = [&](std::size_t i) { return body.reference[i][0] > 0 && body.reference[i][0] < length * l0; };
   const hmps::LatticeBonds<double, 3> bonds(body.X(), {.spacing = l0});
   with_force(method, body.F(), bonds, tissue, [&](auto& force) { settle(body, force, moves, 0, 1e-5); });
-  // What has to act on the upper end.
+  // The moment and the thrust that must act on the upper end.
   double moment = 0, thrust = 0;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (body.reference[i][0] < length * l0) continue;

@@ -28,7 +28,7 @@ enum class Part { wall, block, both };
 struct Scene {
   double degrees = 0;        ///< between surface and lattice, or the samples of a fit
   Made made = Made::cut;     ///< of the part below
-  Part part = Part::wall;    ///< the others are along their lattice
+  Part part = Part::wall;    ///< the other part is along its lattice
   int layers = 4;            ///< of a fitted wall
   double layer_spacing = 1;  ///< of a fitted wall, in spacings
   double friction = 0;
@@ -38,7 +38,7 @@ struct Scene {
 
   [[nodiscard]] bool free() const { return incline != 0; }
   [[nodiscard]] bool along_lattice() const { return degrees == 0 && made != Made::fitted; }
-  /// Of the wall that is measured, in m.
+  /// Length in m of the stretch of wall that is measured.
   [[nodiscard]] double stretch() const { return Wall{.degrees = degrees, .made = made, .spacing = spacing}.stretch(); }
   [[nodiscard]] Wall wall() const {
     if (part == Part::block) return {.spacing = spacing};
@@ -46,7 +46,7 @@ struct Scene {
   }
 };
 
-/// The block, its surface in z = 0 or, along its lattice, a tenth of a spacing above.
+/// The block, with its lower surface in z = 0 or, if along its lattice, a tenth of a spacing above.
 [[nodiscard]] inline scenes::BlockOnWall block_of(const Scene& scene) {
   scenes::BlockOnWall parts;
   const double angle = scene.degrees * std::numbers::pi / 180;
@@ -80,17 +80,18 @@ struct Scene {
 
 inline constexpr double measured = 0.08;  // s, of a free block
 
-/// What a run gave. Means are over whole steps of the stairs, on the incline over the time after the block has settled.
+/// The result of a run. Means are over whole steps of the staircase; on the incline, over the time after the block has
+/// settled.
 struct Outcome {
   double friction = 0;      ///< mean tangential over mean normal force
   double ripple = 0;        ///< rms of the normal force about the load, over the load
   double acceleration = 0;  ///< of the free block, m/s2
   double moved = 0;         ///< of the free block, m, in `measured`
   double shaking = 0;       ///< of the free block, rms of its particles' speed, m/s
-  double seconds = 0;       ///< of the processor, per step, for the contact
+  double seconds = 0;       ///< of processor time, per step, for contact
 };
 
-/// A scene that runs. The plate goes to and fro, so that what climbing takes is not counted as drag.
+/// A running scene. The plate moves to and fro, so that the work of climbing does not count as drag.
 template <class Ball, class Friction>
 class Slide {
  public:
@@ -155,12 +156,12 @@ class Slide {
     return sum / static_cast<double>(count());
   }
 
-  /// Adds the force of contact, by where it sees the particles.
+  /// Adds the force of contact, with the particles at the positions that contact uses.
   void touch() {
     raise_(block_.x(), block_.F(), hmps::vectors(seen_));
     block_.touch(hmps::vectors(seen_), block_.dt);
   }
-  /// Puts the block where the wall bears its weight.
+  /// Moves the block to the height at which the wall carries its weight.
   void set_down() {
     double low = -0.5 * spacing, high = 1.5 * spacing;
     const double weight = density * gravity * static_cast<double>(count()) * (spacing * spacing * spacing);
@@ -172,7 +173,7 @@ class Slide {
     }
   }
 
-  /// Weight, or load and slide of the plate.
+  /// Applies the weight, or the load and the slide of the plate.
   void drive() {
     constexpr double turning = 5e-3;  // s
     const double slope = scene_.incline * std::numbers::pi / 180;

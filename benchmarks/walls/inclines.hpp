@@ -16,7 +16,8 @@ namespace walls {
 
 inline constexpr double steep_mu = 0.3, holding = 10, sliding = 20;  // -, degrees, degrees
 
-/// A free block on an incline: does it stay where it must, and slide at the right rate where it does not?
+/// A free block on an incline: does it stay where friction should hold it, and otherwise slide with the right
+/// acceleration?
 [[nodiscard]] inline Table friction(bool quick) {
   Table table{"friction",
               {"Kernel", "Law", "Skin", "Angle", "Creeps while it should hold, l0", "Speed while it should hold, m/s",
@@ -51,7 +52,7 @@ inline constexpr double steep_mu = 0.3, holding = 10, sliding = 20;  // -, degre
 }
 
 /// The drift in um/s of a block on an incline at 95 % of the friction limit: on the wall along its lattice, and the
-/// largest on the walls as cut, on the raised and on the fitted ones.
+/// largest on the walls as cut, on the raised and on the fitted walls.
 struct Drift {
   double along = 0, cut = 0, raised = 0, fitted = 0;
 };
@@ -77,7 +78,7 @@ template <class Friction>
   return drift;
 }
 
-/// Which law holds a block for long?
+/// Which friction law holds a block for long?
 [[nodiscard]] inline Table limit(bool quick) {
   Table table{
       "limit",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where contact sees the surface of a fitted wall whose layers lie closer or wider than a spacing.
+// The surface of a fitted wall, as contact sees it, if the layers lie closer together or farther apart than a spacing.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace walls {
 
-/// Fitted walls of two layers, on the average over the angles and in the worst case.
+/// Fitted walls of two layers, on average over the angles and in the worst case.
 [[nodiscard]] inline Table layers() {
   Table table{"layers",
               {"Layers apart, l0", "Skin", "Offset as a wall, mean, l0", "Offset as a wall, largest", "Bumps, largest",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a wall of particles feels like at an angle. See --help.
+// Contact with walls of particles at an angle. See --help.
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What blocks that slide along walls of every kind feel.
+// The forces on blocks that slide along walls of every kind.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,12 +22,13 @@ using report::digits, report::places, report::Table;
 inline constexpr std::array angles{0., 15., 22.5, 30., 45.};
 inline constexpr double mu = 0.2;
 
-/// The candidate that was not worth it: the smooth kernel with a longer reach, to level the stairs.
+/// A candidate that was not adopted: the smooth metaball with a longer reach, which should level the staircase.
 struct WideMetaball : hmps::SmoothMetaball {
   static constexpr double radius = 3.5;
 };
 
-/// The angles of a wall or block: along a lattice no skin is raised, and 22.5 degrees are for the fitted.
+/// The angles of a wall or block: surface particles along a lattice are not raised, and 22.5 degrees are only for
+/// fitted bodies.
 [[nodiscard]] inline std::vector<double> angles_of(Made made, Part part, bool quick) {
   std::vector<double> chosen;
   for (const double degrees : angles) {
@@ -42,7 +43,7 @@ struct WideMetaball : hmps::SmoothMetaball {
   return degrees == 0 ? "along the lattice" : made == Made::raised ? "raised" : "as cut";
 }
 
-/// One kernel on one wall.
+/// The results of one metaball on one wall.
 struct Found {
   std::string kernel;
   Made made;
@@ -64,15 +65,15 @@ void measure(const std::string& kernel, Made made, Part part, bool quick, std::v
                    run<Ball, hmps::CorrectedFriction>(scene)});
   }
 }
-/// All skins of one part.
+/// Measures one part with all kinds of surface particles.
 template <class Ball>
 void measure(const std::string& kernel, Part part, bool quick, std::vector<Found>& all) {
   for (const Made made : {Made::cut, Made::raised, Made::fitted})
     if (part != Part::both || made == Made::fitted) measure<Ball>(kernel, made, part, quick, all);
 }
 
-/// The largest magnitude of what `of` takes from the walls of one kernel and skin, at an angle or along the lattice; or
-/// from the blocks.
+/// The largest magnitude of the value that `of` returns, over the walls (or blocks) of one metaball and one kind of
+/// surface particles, at an angle or along the lattice.
 template <class Of>
 [[nodiscard]] double worst(const std::vector<Found>& all, const std::string& kernel, Made made, bool along, Of&& of,
                            Part part = Part::wall) {
@@ -116,7 +117,7 @@ template <class Of>
   return table;
 }
 
-/// What to do, from the figures.
+/// Advice that follows from the figures.
 [[nodiscard]] inline std::string rules_of(const std::vector<Found>& all) {
   const auto error_of = [](const Found& row) { return row.error(); };
   const auto drag_of = [](const Found& row) { return row.drag(); };
@@ -167,7 +168,7 @@ template <class Of>
   return '\n' + report::bullets(rules) + '\n';
 }
 
-/// Error of friction over the angle, one line per kernel and skin.
+/// Draws the error of friction over the angle, one line for each metaball and kind of surface particles.
 inline void draw(const std::vector<Found>& all, const std::filesystem::path& path) {
   using report::Anchor, report::Colour;
   constexpr double left = 80, top = 50, across_all = 520, up_all = 260, most = 0.6;

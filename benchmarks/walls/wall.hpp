@@ -12,8 +12,8 @@ namespace walls {
 
 using Point = hmps::Vector<double, 3>;
 
-/// The places of a lattice that is turned by `angle` (rad) about y against z = 0, over a rectangle of that plane and
-/// `depth` spacings above and below it; `phase` (in spacings) shifts it against the plane.
+/// The sites of a lattice that is turned by `angle` (rad) about y against the plane z = 0, over a rectangle of that
+/// plane and up to `depth` spacings above and below it; `phase` (in spacings) shifts the lattice against the plane.
 [[nodiscard]] inline std::vector<Point> lattice(double angle, double phase, const hmps::Vector<double, 2>& lower,
                                                 const hmps::Vector<double, 2>& upper, double spacing,
                                                 double depth = 4) {
@@ -33,15 +33,15 @@ using Point = hmps::Vector<double, 3>;
   return places;
 }
 
-/// How a body gets its particles, and where contact sees those of its skin.
+/// How a body is filled with particles, and at which positions contact evaluates its surface particles.
 enum class Made {
-  cut,     ///< out of a turned lattice
-  raised,  ///< the same; contact sees its skin raised to the surface
-  fitted   ///< to its surface
+  cut,     ///< cut out of a turned lattice
+  raised,  ///< the same; in contact its surface particles are raised to the surface
+  fitted   ///< fitted to its surface
 };
 
-/// Particles fitted to a box, which is turned by `angle` (rad) about y against the grid that `fit_particles` samples it
-/// with. Lengths in m.
+/// Particles fitted to a box, which is turned by `angle` (rad) about y against the grid with which `fit_particles`
+/// samples it. Lengths in m.
 [[nodiscard]] inline std::vector<Point> fitted(double angle, const hmps::Box<double, 3>& box, double spacing) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
   const Point centre = (box.lower + box.upper) / 2, half = (box.upper - box.lower) / 2;
@@ -52,8 +52,8 @@ enum class Made {
   return places;
 }
 
-/// A rigid wall below z = 0, four layers deep, that is cut out of a lattice or fitted: `degrees` between its surface
-/// and the lattice, or the grid of samples, about y.
+/// A rigid wall below z = 0, four layers deep, that is cut out of a lattice or fitted. `degrees` is the angle about y
+/// between its surface and the lattice or the grid of samples.
 struct Wall {
   double degrees = 0;
   Made made = Made::cut;
@@ -61,18 +61,18 @@ struct Wall {
   int layers = 4;            ///< of a fitted one
   double layer_spacing = 1;  ///< of a fitted one, in spacings
 
-  std::vector<Point> places = {};      ///< where contact sees the particles, m
+  std::vector<Point> places = {};      ///< positions of the particles in contact, m
   std::vector<hmps::Index> skin = {};  ///< numbered from 0
 
-  /// Mean length of a step of the stairs along x, in m. They come in two lengths, that do not repeat.
+  /// Mean length in m of a step of the staircase along x. The steps have two lengths, whose sequence is not periodic.
   [[nodiscard]] double step() const {
     return degrees > 0 && made != Made::fitted ? spacing / std::sin(angle()) : spacing;
   }
-  /// Whole steps of 15 spacings or more in all, in m.
+  /// Total length in m of as many whole steps as make up 15 spacings or more.
   [[nodiscard]] double stretch() const { return step() * std::ceil(15 * spacing / step() - 1e-9); }
   [[nodiscard]] double angle() const { return degrees * std::numbers::pi / 180; }
 
-  /// Fills lower[0] <= x <= upper[0] and the same in y.
+  /// Fills lower[0] <= x <= upper[0], and likewise in y.
   void fill(const hmps::Vector<double, 2>& lower, const hmps::Vector<double, 2>& upper) {
     if (made == Made::fitted)
       fit(lower, upper);
@@ -81,7 +81,7 @@ struct Wall {
     if (made == Made::raised) raise();
   }
 
-  /// Lets contact see the skin half a spacing below the surface.
+  /// Moves the surface particles, as contact sees them, to half a spacing below the surface.
   void raise() {
     const hmps::HalfSpace<double, 3> inside{Point::Zero(), Point::UnitZ()};
     const hmps::SurfaceCorrection<double, 3> raise(hmps::vectors(places), skin, inside, spacing);
@@ -94,8 +94,8 @@ struct Wall {
     places.push_back(place);
   }
   void cut(const hmps::Vector<double, 2>& lower, const hmps::Vector<double, 2>& upper) {
-    // A wall along its lattice has its outermost particles half a spacing below its surface; so have the others on
-    // the average. Of the skin are those whose next place of the lattice upwards is outside.
+    // The outermost particles of a wall along its lattice lie half a spacing below its surface; those of other walls do
+    // so on average. A particle belongs to the surface particles if the next lattice site above it is outside.
     for (const Point& place : lattice(angle(), degrees > 0 ? 0.13 : 0.5, lower, upper, spacing))
       if (place[2] <= 0) add(place, -place[2] < spacing * std::cos(angle()));
   }
@@ -109,16 +109,15 @@ struct Wall {
   }
 };
 
-/// What a slave feels of a wall at one height of contact.
+/// The shape of a wall as a slave feels it at one height of contact.
 struct Relief {
-  double offset = 0;        ///< mean height of the surface above the drawn one, in spacings
+  double offset = 0;        ///< mean height of the surface above the drawn surface, in spacings
   double bumps = 0;         ///< of the surface, from the lowest to the highest, in spacings
   double tilt = 0;          ///< tangent of the angle between normal and surface normal, root mean square
-  double largest_tilt = 0;  ///< the same, the largest
+  double largest_tilt = 0;  ///< the largest such tangent
 };
 
-/// Moves a slave over the stretch of a wall with unit spacing, that is filled, at a penetration of a twentieth of a
-/// spacing.
+/// Moves a slave over the stretch of a filled wall with unit spacing, at a penetration of a twentieth of a spacing.
 template <class Ball>
 [[nodiscard]] Relief relief(const Wall& wall) {
   constexpr double reach = Ball::radius, penetration = 0.05;

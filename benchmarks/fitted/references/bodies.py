@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The answers of finite elements that benchmarks/fitted compares bodies of particles with.
+"""The finite-element answers with which benchmarks/fitted compares bodies of particles.
 
     python3 bodies.py half_cylinder 1 2 3 4      prints the answer for each refinement
 
-For each refinement it writes a mesh of quadratic bricks (C3D20R) and its loads, NAME_N.inp, to the folder where it is
-called, runs `ccx NAME_N` (CalculiX, which must be on the path) and reads NAME_N.dat. Needs nothing but Python 3.
+For each refinement it writes a mesh of quadratic bricks (C3D20R) and its loads, NAME_N.inp, to the current folder, runs
+`ccx NAME_N` (CalculiX, which must be on the path) and reads NAME_N.dat. Otherwise it needs only Python 3.
 
-Small strains; E = 100 kPa, bulk modulus 2 MPa. A body gives way by the A of the displacement A p(X) that fits best to
-u, which is integral(u . p) / integral(p . p) over its volume, where the load is in proportion to p. Free bodies are
-loaded in balance and held against rigid motions only. A strip whose ends are turned answers by the torque.
+Small strains; E = 100 kPa, bulk modulus 2 MPa. The answer is the A of the displacement A p(X) that fits u best, which
+is integral(u . p) / integral(p . p) over the volume of the body, under a load that is proportional to p. Loads on free
+bodies are in balance, and these bodies are held only against rigid motions. For a strip whose ends are turned, the
+answer is the torque.
 """
 
 import math
@@ -59,7 +60,7 @@ def even(s):
 
 
 def to_first(s):
-    """Bricks become smaller towards 0, where a stress has no bound."""
+    """Makes bricks smaller towards 0, where a stress is unbounded."""
     return s * s
 
 
@@ -72,12 +73,12 @@ def to_both(s):
 
 
 def box(low, high):
-    """The place in a box from its corners."""
+    """Maps numbers from 0 to 1 to a place in the box with these corners."""
     return lambda *shares: tuple(a + s * (b - a) for a, b, s in zip(low, high, shares))
 
 
 class Mesh:
-    """Blocks of bricks whose common nodes are one."""
+    """Blocks of bricks that share their common nodes."""
 
     def __init__(self):
         self.places, self.elements, self.numbers = [], [], {}
@@ -90,8 +91,8 @@ class Mesh:
         return self.numbers[key]
 
     def block(self, counts, place, grades=None):
-        """counts[0] x counts[1] x counts[2] bricks. `place` takes three numbers from 0 to 1, right-handed, to x, y, z;
-        before it, `grades` take the corners of bricks closer together."""
+        """counts[0] x counts[1] x counts[2] bricks. `place` maps three numbers from 0 to 1, right-handed, to x, y, z;
+        before that, `grades` move the corners of bricks closer together."""
         lines = []
         for n, grade in zip(counts, grades or (even, even, even)):
             corners = [grade(k / n) for k in range(n + 1)]
@@ -129,7 +130,7 @@ def is_at(value, level):
 
 
 class Body:
-    """A mesh, the load (N/m3), its pattern, and held(place), which gives the (axis, displacement in m) that are set."""
+    """A mesh, the load (N/m3), its pattern, and held(place), which returns the prescribed (axis, displacement in m)."""
 
     def __init__(self, mesh, held, pattern=lambda x: (0.0, 0.0, 0.0), load=0.0):
         self.mesh, self.held, self.pattern, self.load = mesh, held, pattern, load
@@ -253,7 +254,7 @@ def junction(n):
 
 
 class Leaf:
-    """The epiglottis of examples/swallowing/scene/anatomy.hpp, whose numbers are its own: mm and radians."""
+    """The epiglottis of examples/swallowing/scene/anatomy.hpp, whose numbers it repeats, in mm and radians."""
 
     LENGTH, RADIUS = 36, 36 / math.radians(14)  # of the midline, which is part of a circle
 

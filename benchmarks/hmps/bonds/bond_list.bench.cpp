@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Making the bonds of a box as of any cloud: bonds/list/KIND/PARTICLES. Items are particles.
+// Making the bonds of a box in the way that works for any cloud: bonds/list/KIND/PARTICLES. Items are particles.
 #include "hmps/bonds/bond_list.hpp"
 
 #include "make_bonds.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Making the bonds of a box from its lattice: bonds/lattice/KIND/PARTICLES; from nothing, that is filling the lattice,
-// finding its bonds and inverting A: setup/PARTICLES. Items are particles.
+// Making the bonds of a box from its lattice: bonds/lattice/KIND/PARTICLES. The complete set-up, that is, filling the
+// lattice, finding its bonds and inverting A: setup/PARTICLES. Items are particles.
 #include "hmps/bonds/lattice_bonds.hpp"
 
 #include <string>

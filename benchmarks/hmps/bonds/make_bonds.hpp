@@ -7,7 +7,7 @@
 
 namespace bench {
 
-/// Registers `name/KIND/PARTICLES`: making the bonds of a box. Items are particles; bytes are what the bonds take.
+/// Registers `name/KIND/PARTICLES`: making the bonds of a box. Items are particles; bytes are the memory of the bonds.
 template <class Bonds>
 void add_bonds(const std::string& name) {
   for (const Box& box : {in_cache, paper_size, million})

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Contact of two slabs, one on the other, of 64 x 64 particles and three layers each, which deform, swing
-// up and down a little and slide on each other at a tenth of a spacing in a hundred steps: what a call
-// costs, with the upkeep of the lists. Items are slaves of both, touching or not, by the time of the
-// processor for one thread and by the clock for several.
+// The cost of a call of contact, including the updates of its lists, for two slabs that lie on each other. Each has 64
+// x 64 particles and three layers. They deform, move up and down a little, and slide on each other by a tenth of a
+// spacing in a hundred steps. Items are the slaves of both slabs, touching or not, timed by processor time for one
+// thread and by the clock for several.
 //
 //   contact/SHARE/DEPTH/KIND/THREADS   SHARE: percent of the slaves that are pressed in; the others hover
 //                                      1.5 spacings above the wall. DEPTH: of those pressed in, in
 //                                      hundredths of a spacing
 //   contact/apart/KIND/THREADS         ten spacings between the slabs
 //
-// The counters say how many slaves touch and how often the lists were built anew.
+// The counters give the number of slaves that touch and how often the lists were rebuilt.
 #include "hmps/contact/contact.hpp"
 
 #include <algorithm>
@@ -31,7 +31,8 @@ struct Slabs {
   std::vector<hmps::Matrix<S, 3>> F;
   std::vector<Index> lower_skin, lower_wall, upper_skin, upper_wall;
 
-  /// `gap(column)`, in spacings, from the top layer of the lower to the bottom layer of the upper slab.
+  /// `gap(column)` is the distance in spacings from the top layer of the lower slab to the bottom layer of the upper
+  /// one.
   template <class Gap>
   explicit Slabs(Gap&& gap) {
     for (const bool upper : {false, true})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Z^-1, (29), of random sums from out of reach to deep inside: z_inverse/BALL/KIND. Items are slaves.
+// Z^-1, (29), for random sums from out of reach to deep inside: z_inverse/BALL/KIND. Items are slaves.
 #include "hmps/contact/normal_density.hpp"
 
 #include <string>

@@ -24,7 +24,7 @@ void penetration(benchmark::State& run) {
     const std::size_t i = n++ % F.size();
     benchmark::DoNotOptimize(hmps::penetration(hmps::slave_support<S, 3>(F[i], normal[i], S(0.5) * l0), S(0.45) * l0));
   }
-  // F^T n, its length, times l0 / 2, less the distance.
+  // F^T n, its length, times l0 / 2, minus the distance.
   bench::count(run, 1, {15 + 6 + 1 + 1, 12 * sizeof(S)});
 }
 

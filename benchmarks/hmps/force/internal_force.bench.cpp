@@ -9,10 +9,10 @@
 //   step/thin/KIND/PARTICLES/THREADS    half a hollow ball, a wall of three particles, in which few
 //                                       neighbours lie in rows
 //
-// Counters, beside items, bytes and FLOP per second (cost.hpp): `memory`, bytes that bonds and force keep per particle;
-// `roofline`, for one thread the share of what multiply-adds and memory allow (roofline.hpp); `neighbours`, the share
-// of what reading the neighbours allows; `lanes`, the share of the lanes that hold a bond where a row of bonds is
-// computed.
+// Counters besides items, bytes and FLOP per second (cost.hpp): `memory`, the bytes per particle that bonds and force
+// store; `roofline`, for one thread the share of the rate that multiply-adds and memory allow (roofline.hpp);
+// `neighbours`, the share of the rate that reading the neighbours allows; `lanes`, the share of the lanes of computed
+// rows of bonds that hold a bond.
 #include "hmps/force/internal_force.hpp"
 
 #include <cmath>
@@ -32,7 +32,7 @@ namespace {
 
 using namespace bench;
 
-/// Bonds over the lanes of the rows in which they are computed.
+/// Number of bonds over the number of lanes in the rows in which they are computed.
 template <class Bonds>
 double useful_lanes(const Bonds& bonds) {
   std::size_t held = 0, rows = 0;
@@ -90,7 +90,7 @@ void reference_step(benchmark::State& run, const Box& box) {
   count(run, box.size(), StepCost<S, hmps::LatticeBonds<S, 3>>(bonds).step(law));
 }
 
-/// Half a hollow ball, three particles thick: a thin wall in every direction, as organs have them.
+/// Half a hollow ball, three particles thick: a thin wall in every direction, as in organs.
 template <class S>
 State<S> dome() {
   State<S> state(Box{0, 0, 0});

@@ -11,9 +11,9 @@
 
 namespace bench {
 
-/// The internal force as one writes it without a library: bonds in compressed rows, a particle and a neighbour after
-/// the other, small Eigen vectors, two loops. It has the algebra of the two sweeps and the library's law, so that the
-/// ratio to it is that of layout and vector units alone.
+/// The internal force as one would write it without a library: bonds in compressed rows, small Eigen vectors, and two
+/// loops that treat one particle and one neighbour at a time. The algebra is that of the two sweeps and the law is the
+/// library's, so the ratio of the times shows only the effect of memory layout and vector units.
 template <class S>
 class Reference {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Filling a shape with particles: fill/SHAPE/KIND/SITES/THREADS; the shapes are a ball, and a thick shell of an
-// ellipsoid, cut open, as organs are composed. Items are the sites that are tried.
+// Filling a shape with particles: fill/SHAPE/KIND/SITES/THREADS; the shapes are a ball and a thick, open shell of an
+// ellipsoid, which is composed like an organ. Items are the sites that are tested.
 #include "hmps/particles/lattice.hpp"
 
 #include <string>

@@ -7,17 +7,18 @@
 #include "components/support.hpp"
 #include "hmps/core/types.hpp"
 
-/// What the benchmarks of the two searches share.
+/// Functions shared by the benchmarks of the two searches.
 namespace bench {
 
 template <class S>
 inline constexpr S search_radius = static_cast<S>(1.75 * spacing);
 
-/// Counts particles; bytes are those of the points and of the list of `found` neighbours, once.
+/// Counts particles as items; bytes are those of the points and of the list of `found` neighbours, once each.
 template <class S>
 void count_search(benchmark::State& run, std::size_t particles, std::size_t found) {
   const double neighbours = static_cast<double>(found) / static_cast<double>(particles);
-  // A distance is three differences, three products, two sums; how many are tried is the method's choice.
+  // A distance is three differences, three products and two sums. Only the distances of neighbours count, however many
+  // the method computes.
   count(run, particles, {8 * neighbours, 3 * sizeof(S) + sizeof(std::size_t) + sizeof(hmps::Index) * neighbours});
 }
 

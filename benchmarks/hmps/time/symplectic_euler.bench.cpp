@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kick and drift, (2) and (4): euler/KIND/PARTICLES/THREADS, and with the carry of rounding euler/compensated/float/...
+// Kick and drift, (2) and (4): euler/KIND/PARTICLES/THREADS; with compensated rounding: euler/compensated/float/...
 // Items are particle-steps.
 #include "hmps/time/symplectic_euler.hpp"
 
