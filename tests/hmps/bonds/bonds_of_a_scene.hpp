@@ -40,7 +40,7 @@ void equal_the_plain_ones(const B& bonds, const scenes::Scene<B::dimension>& sce
   for (std::size_t i = 0; i < body.size(); ++i) {
     std::map<std::size_t, std::pair<hmps::Vector<K, D>, K>> found;
     bonds.for_each_bond(i, [&](std::size_t j, const hmps::Vector<K, D>& r0, K w) {
-      EXPECT_TRUE(found.emplace(j, std::pair(r0, w)).second) << "the bond " << i << ' ' << j << " is there twice";
+      EXPECT_TRUE(found.emplace(j, std::pair(r0, w)).second) << "the bond " << i << ' ' << j << " appears twice";
     });
     ASSERT_EQ(found.size(), body.neighbours(i)) << i;
     body.for_each_bond(i, [&](const auto& bond) {

@@ -26,7 +26,7 @@ TEST(PlausibleSpacing, RefusesASpacingThatBondsEverythingToEverything) {
   const auto points = scenes::box<3>({24, 24, 24});
   const std::string error = error_with<3>(points, 1.2);
   EXPECT_TRUE(has(error, "particle 0 has 13823 neighbours")) << error;
-  EXPECT_TRUE(has(error, "64 particles that were looked at have 13823 on average")) << error;
+  EXPECT_TRUE(has(error, "64 particles that were sampled have 13823 on average")) << error;
   EXPECT_TRUE(has(error, "a spacing of 1.2 m gives about 22")) << error;
   EXPECT_TRUE(has(error, "the typical distance to the nearest particle is 0.0012 m")) << error;
 }

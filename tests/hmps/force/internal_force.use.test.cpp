@@ -338,7 +338,7 @@ TEST(InternalForce, RefusesBondsThatAreNoMore) {
   const auto evaluate = [&] { force(hmps::vectors(scene.x), hmps::vectors(f)); };
   EXPECT_NO_THROW(evaluate());
   *bonds = make_bonds<Lattice>(scene_of("L"));
-  EXPECT_TRUE(has(error_of(evaluate), "bonds of this force are no more"));
+  EXPECT_TRUE(has(error_of(evaluate), "bonds of this force no longer exist"));
   auto second = hmps::internal_force(*bonds, hmps::elastic(law));
   const Lattice moved = std::move(*bonds);
   EXPECT_EQ(&second.bonds(), &moved);
