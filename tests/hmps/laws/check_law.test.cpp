@@ -81,7 +81,7 @@ TEST(CheckLaw, RejectsWhatIsNotFiniteAndSettingsOutOfRange) {
   EXPECT_NE(error_of<3>({.factor = nan}), "");
   EXPECT_NE(error_of<3>({.rest = nan}, {.prestressed = true}), "");
   for (const double strain : {0.0, -0.1, 0.3, nan})
-    EXPECT_NE(error_of<3>({}, {.strain = strain}).find("must lie above 0"), std::string::npos) << strain;
+    EXPECT_NE(error_of<3>({}, {.strain = strain}).find("must be above 0"), std::string::npos) << strain;
 }
 
 }  // namespace check_law_test
