@@ -18,7 +18,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/view.hpp"
 
-/// What the tests of both models of bonds share.
+/// Shared by the tests of both models of bonds.
 namespace bonds_of_a_scene {
 
 template <class B>
@@ -122,7 +122,7 @@ std::string error_of(Call&& call) {
 }
 inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What both models refuse, with the words of the message.
+/// Inputs that both models refuse, with the words of the message.
 template <class B>
 void refuse_bad_input() {
   constexpr int D = B::dimension;

@@ -17,7 +17,7 @@ namespace check_law_test {
 
 using hmps::check_law;
 
-/// Saint Venant-Kirchhoff's law without Poisson's effect, W = mu E : E, with what users get wrong.
+/// Saint Venant-Kirchhoff's law without Poisson's effect, W = mu E : E, with typical mistakes of users.
 struct Own {
   double factor = 2;  // of mu E in S
   double rest = 0;    // Pa, in S and in W
