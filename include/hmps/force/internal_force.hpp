@@ -67,7 +67,7 @@ class InternalForce {
   void restrict_to(Moves&& moves) {
     bonds_ = &bonds();
     if constexpr (requires { moves.scene_size(); })
-      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set `moves` of restrict_to is for ",
+      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set `moves` of restrict_to is for a scene of ",
                       moves.scene_size(), " particles, but the body has ", bonds_->size(),
                       "; make it for all particles of the body");
     restricted_.restrict_to(*bonds_, moves, Sweeps::means);

@@ -44,7 +44,7 @@ class Pressure {
         bond_(std::sqrt(bonds.standard_lambda())),
         particles_(loaded.indices()),
         area_(particles_.size()) {
-    detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is for ",
+    detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is for a scene of ",
                     loaded.scene_size(), " particles but the bonds are for ", size_, "; make both for the same scene");
     double largest = 0, least = 0;  // |b| at a face is of the order of one over the length of a bond
     for (std::size_t k = 0; k < particles_.size(); ++k) {

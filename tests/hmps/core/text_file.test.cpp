@@ -38,7 +38,7 @@ TEST(TextFile, EndsWithWhatDoesNotEnd) {
     (void)read_text("/dev/zero", 3'000'000);
     FAIL() << "an endless file has ended";
   } catch (const hmps::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("/dev/zero is no regular file and has not ended after 3000000 bytes"),
+    EXPECT_NE(std::string(error.what()).find("/dev/zero is not a regular file and has not ended after 3000000 bytes"),
               std::string::npos)
         << error.what();
   }
