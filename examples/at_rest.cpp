@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where does a bar of soft tissue come to rest under its weight? The static answer, without waiting for it in time.
+// Where does a bar of soft tissue come to rest under its weight? Finds the static answer without simulating the motion.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -10,7 +10,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 4e-3, rho = 1000, g = 9.81;
 
-  // The bar of the first program: 60 x 20 x 20 mm, and two layers more at x < 0, which the clamp holds.
+  // The bar of the first program: 60 x 20 x 20 mm, and two more layers at x < 0, which the clamp holds.
   const hmps::Box<double, 3> bar{Vector(-2 * l0, 0, 0), Vector(0.06, 0.02, 0.02)};
   const std::vector<Vector> reference = hmps::fill_lattice(bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
   const hmps::ParticleSet clamped(reference.size(), [&](std::size_t i) { return reference[i][0] < 0; });

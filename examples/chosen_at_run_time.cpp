@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A force that is chosen when the program runs, and one that is a member of a class. A block of tissue is stretched and
-// let go; usage: chosen_at_run_time [elastic|damped]
+// A force that is chosen at run time, and one that is a member of a class. A block of tissue is stretched and let go;
+// usage: chosen_at_run_time [elastic|damped]
 #include <cmath>
 #include <cstdio>
 #include <hmps/hmps.hpp>

@@ -11,11 +11,11 @@
 
 using Vector = hmps::Vector<double, 3>;
 
-/// How far the middle of the end face sinks (m), with the lattice that has this spacing and origin (m).
+/// How far the middle of the end face sinks (m) with a lattice of this spacing and origin (m).
 double sag(double l0, const Vector& origin) {
   const double rho = 1000, g = 9.81;
   const hmps::Matrix<double, 3> along = Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.2, 1, 0.3).normalized()).matrix();
-  // 60 x 20 x 20 mm and two spacings more at the clamp, in axes of its own: r' = along^T r.
+  // 60 x 20 x 20 mm and two more spacings at the clamp, in the bar's own axes: r' = along^T r.
   const auto own = [&](const Vector& r) { return Vector(along.transpose() * r); };
   const hmps::Box<double, 3> bar{Vector(-2 * l0, 0, 0), Vector(0.06, 0.02, 0.02)};
   const auto tilted = [&](const Vector& r) { return bar(own(r)); };
@@ -38,7 +38,7 @@ double sag(double l0, const Vector& origin) {
               {.spacing = l0, .load = rho * g * 0.06 * 0.02 * 0.02, .moves = [&](std::size_t i) {
                  return own(reference[i])[0] > 0;
                }});
-  // Where the particles have carried the middle of the end face.
+  // Where the particles have carried the middle of the end face to.
   const std::vector<Vector> middle{along * Vector(0.06, 0.01, 0.01)};
   std::vector<Vector> sunk(1);
   hmps::CarriedSurface(hmps::vectors(reference), hmps::vectors(middle), l0)(hmps::vectors(position),
@@ -52,7 +52,7 @@ int main(int argc, char** argv) try {
   for (const double value : found.values) std::printf("%.2f mm\n", 1e3 * value);
   std::printf("The middle of the end sinks by %.1f +- %.1f mm; finite elements: 23.4 mm.\n", 1e3 * found.mean,
               1e3 * found.error);
-  // The error bar does not hold what all positions of the lattice have in common: see the tutorial.
+  // The error bar does not include the errors that all positions of the lattice have in common: see the tutorial.
   return std::abs(found.mean - 23.4e-3) < found.error + 0.1 * 23.4e-3 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -9,7 +9,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 4e-3, rho = 1000, dt = 6e-5;  // spacing (m), density (kg/m3), time step (s)
 
-  // 60 x 20 x 20 mm, and two layers more at x < 0, which the clamp holds.
+  // 60 x 20 x 20 mm, and two more layers at x < 0, which the clamp holds.
   const hmps::Box<double, 3> bar{Vector(-2 * l0, 0, 0), Vector(0.06, 0.02, 0.02)};
   const std::vector<Vector> reference = hmps::fill_lattice(bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
   const hmps::ParticleSet clamped(reference.size(), [&](std::size_t i) { return reference[i][0] < 0; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How large may the step be, and what is seen when it is larger? A cube is given a push, once with the step that
-// `stable_step` recommends and once with half as much again.
+// How large may the step be, and what happens when it is larger? A cube is set in motion, once with the step that
+// `stable_step` recommends and once with a step half as large again.
 #include <cstdio>
 #include <hmps/hmps.hpp>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bonds of the user's own: a cloud of particles that is coarse at one end and fine at the other, where each bond
-// reaches as far as the spacing of its two ends asks for. No single radius would do. A stretch and shear of the whole
-// cloud must come out as the same deformation gradient everywhere, and its forces must sum to zero.
+// User-defined bonds: a cloud of particles that is coarse at one end and fine at the other, where the reach of each
+// bond follows from the spacing at its two ends. No single radius would do. If the whole cloud is stretched and
+// sheared, every particle must have the same deformation gradient, and the forces must sum to zero.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>

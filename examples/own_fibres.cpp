@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tissue with fibres: a law of the user's own whose direction differs from particle to particle, as in the tongue. Each
+// Tissue with fibres: a user-defined law whose direction differs from particle to particle, as in the tongue. Each
 // fibre stiffens exponentially (Holzapfel, Gasser and Ogden 2000) and bears tension only.
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-/// W = that of a neo-Hookean solid + k1 / (2 k2) (exp(k2 e^2) - 1), e = a . C a - 1 where fibres are stretched.
+/// W of a neo-Hookean solid + k1 / (2 k2) (exp(k2 e^2) - 1), with e = a . C a - 1 if the fibre is stretched, else 0.
 template <class T, int D>
 struct Fibrous {
   hmps::NeoHookean<double> ground;
@@ -37,14 +37,14 @@ int main() {
   const double l0 = 1e-3;
   const hmps::Box<double, 3> cube{Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(6 * l0)};
   const auto reference = hmps::fill_lattice(cube, l0, Eigen::Vector3d::Constant(l0 / 2));
-  // Along x below, along z above.
+  // The fibres lie along x in the lower half, along z in the upper.
   std::vector<Eigen::Vector3d> along;
   for (const auto& X : reference) along.push_back(X[2] < 3 * l0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ());
 
   const auto ground = hmps::NeoHookean<>::from_young_poisson(20e3, 0.45);
   const auto a = hmps::vectors(along);
   const auto law = [&](const auto& at) {
-    const auto direction = at(a);  // of the particle, or of many at a time
+    const auto direction = at(a);  // of one particle, or of many at a time
     using Direction = std::decay_t<decltype(direction)>;
     return Fibrous<typename Direction::Scalar, 3>{ground, direction, 5e3, 2};
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Another scheme from the same verbs: velocity Verlet, beside the paper's symplectic Euler. A stretched block is let
-// go; nothing damps it, so its energy should stay. By how much it does not falls with the step, or with its square.
+// Another scheme from the same functions: velocity Verlet, beside the paper's symplectic Euler. A stretched block is
+// let go; nothing damps it, so its energy should be constant. The error falls with the step for symplectic Euler, and
+// with its square for velocity Verlet.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +25,7 @@ int main() {
     hmps::kick(v, f, rho, dt);
     hmps::drift(x, v, dt);
   };
-  const auto velocity_verlet = [&](double dt) {  // f is that of x at the start, and again at the end
+  const auto velocity_verlet = [&](double dt) {  // f belongs to x at the start, and again at the end
     hmps::kick(v, f, rho, dt / 2);
     hmps::drift(x, v, dt);
     force(x, f);
@@ -32,7 +33,7 @@ int main() {
   };
 
   const auto energy = [&] { return hmps::kinetic_energy(v, rho, volume) + force.energy(x, volume).total(); };
-  const auto largest_error = [&](const auto& scheme, double dt) {  // of the energy, relative, over 0.02 s
+  const auto largest_error = [&](const auto& scheme, double dt) {  // relative error of the energy over 0.02 s
     for (std::size_t i = 0; i < reference.size(); ++i) position[i] = reference[i].cwiseProduct(Vector(1.1, 0.95, 0.95));
     std::fill(velocity.begin(), velocity.end(), Vector::Zero());
     force(x, f);

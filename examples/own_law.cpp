@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A law of the user's own, that of Yeoh, joins the same two sweeps as the laws of the library, in two and three
-// dimensions. Its stress is checked against its energy.
+// A user-defined law, that of Yeoh, runs in the same two sweeps as the laws of the library. Its stress is checked
+// against its energy in two and three dimensions.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,9 +30,9 @@ struct Yeoh {
 
 int main() {
   const double l0 = 1e-3;
-  // 6 C10 is Young's modulus at zero strain, here the 6 kPa that section 3.7 of the paper names for the tongue.
+  // 6 C10 is Young's modulus at zero strain, here the 6 kPa that section 3.7 of the paper gives for the tongue.
   const Yeoh tongue{.c10 = 1000, .c20 = 500, .d = 1e5};
-  hmps::check_law(tongue);  // throws where the stress is not dW/dF
+  hmps::check_law(tongue);  // throws if the stress is not dW/dF
   hmps::check_law<2>(tongue);
 
   const hmps::Box<double, 3> cube{Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(4 * l0)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A pair term of the user's own: fibres along the bonds of a block of tissue that pull when they are stretched and are
-// slack when they are pressed. Momentum and angular momentum stay whatever such a term computes; that its force is the
-// gradient of its energy is what the program checks, and how much less the block gives way.
+// A user-defined pair term: fibres along the bonds of a block of tissue that pull when they are stretched and are slack
+// when they are compressed. Whatever such a term computes, momentum and angular momentum are conserved. The program
+// checks that the force derives from the energy, and compares the stable step with and without fibres.
 #include <cmath>
 #include <cstdio>
 #include <hmps/hmps.hpp>
@@ -58,7 +58,7 @@ int main() {
   std::printf("largest force density %.3e N/m3; of it force and moment %.1e, difference from the energy %.1e\n",
               largest, unbalanced, wrong / largest);
 
-  // The step falls with the root of the stiffness.
+  // The stable step falls with the root of the stiffness.
   std::vector<Vector> still(reference.size(), Vector::Zero());
   position = reference;
   const double slack = hmps::stable_step(plain, x, hmps::vectors(still), rho, {.spacing = l0}).step;

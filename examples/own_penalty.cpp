@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A penalty law of the user's own, Hertz-like: soft at the first touch and stiffer with depth. A rigid tile is thrown
-// at a plate. The program checks that it gets as deep as the energy of the law says and flies off as fast as it came,
-// and that contact refuses a step at which the law, not k, is too stiff.
+// A user-defined penalty law, Hertz-like: soft at first touch and stiffer with depth. A rigid tile is thrown at a
+// plate. The program checks that it penetrates as deep as the energy of the law predicts and flies off as fast as it
+// came, and that contact rejects a step for which the law, not k, is too stiff.
 #include <cmath>
 #include <cstdio>
 #include <hmps/hmps.hpp>
@@ -18,7 +18,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 2e-3, rho = 1000, k = 1e11, speed = 1.5;  // m, kg/m3, N/m4, m/s
 
-  // The plate of two layers is fixed and ends at z = 0; the tile of two layers starts a tenth of a spacing above it.
+  // The plate (two layers) is fixed and ends at z = 0; the tile (two layers) starts a tenth of a spacing above it.
   const hmps::Box<double, 3> plate{Vector(-0.014, -0.014, -0.004), Vector(0.014, 0.014, 0)};
   const hmps::Box<double, 3> tile{Vector(-0.006, -0.006, 0), Vector(0.006, 0.006, 0.004)};
   std::vector<Vector> reference = hmps::fill_lattice(plate, l0, Vector(Vector::Constant(l0 / 2)));

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The user's own particles: the library works on their members where they lie, whatever lies between them.
-// A ball of soft tissue is set spinning and let go. It widens and narrows; its volume and angular momentum stay.
+// User-defined particles: the library works on their members in place, whatever lies between them. A ball of soft
+// tissue is set spinning and let go. It widens and narrows; its volume and angular momentum stay the same.
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <hmps/hmps.hpp>
 #include <vector>
 
-struct Cell {                                              // no type of the library
+struct Cell {                                              // not a type of the library
   Eigen::Vector3d position{0, 0, 0};                       // m
   float velocity[3] = {0, 0, 0};                           // m/s; scalar types may differ between members
-  double temperature = 310;                                // what else the user's code keeps
+  double temperature = 310;                                // other data of the user's code
   std::array<double, 3> force{};                           // N/m3
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();  // deformation gradient
 };
@@ -45,5 +45,5 @@ int main() {
     hmps::kick(v, f, rho, dt);
     hmps::drift(x, v, dt);
   }
-  return std::fflush(stdout) == 0 && std::abs(after - before) < 1e-4 * before ? 0 : 1;  // what float velocities allow
+  return std::fflush(stdout) == 0 && std::abs(after - before) < 1e-4 * before ? 0 : 1;  // limited by float velocities
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A weight of the user's own, that of Wendland, in place of the paper's. What is uniform does not depend on the weight:
-// a bar that is stretched and sheared as a whole has the energy W(F) V with either, which the program checks. What is
-// not depends on it through the resolution: how far the end of the bar sinks, with three particles through it.
+// A user-defined weight, that of Wendland, in place of the paper's. A uniform deformation does not depend on the
+// weight: a bar that is stretched and sheared as a whole has the energy W(F) V with either, which the program checks.
+// Other deformations depend on it through the resolution: how far the end of the bar sinks, with three particles
+// through the thickness.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -19,7 +20,7 @@ int main() {
   using Vector = hmps::Vector<double, 3>;
   const double l0 = 0.02 / 3, rho = 1000, volume = l0 * l0 * l0;  // m, kg/m3, m3
 
-  // 60 x 20 x 20 mm, and a layer more at x < 0, which the clamp holds.
+  // 60 x 20 x 20 mm, and one more layer at x < 0, which the clamp holds.
   const hmps::Box<double, 3> bar{Vector(-l0, 0, 0), Vector(0.06, 0.02, 0.02)};
   const std::vector<Vector> reference = hmps::fill_lattice(bar, l0, Vector(l0 / 2, l0 / 2, l0 / 2));
   const hmps::ParticleSet clamped(reference.size(), [&](std::size_t i) { return reference[i][0] < 0; });
@@ -28,9 +29,9 @@ int main() {
   hmps::Matrix<double, 3> F;
   F << 1.1, 0.2, 0, 0, 0.9, 0.1, 0, 0, 1.05;
   const double exact = hmps::energy_density(tissue, F) * volume * static_cast<double>(reference.size());
-  double wrong = 0;  // of the energy of a uniform deformation, relative
+  double wrong = 0;  // relative error of the energy of a uniform deformation
 
-  const auto sunk = [&](const auto& weight) {  // mean of the last layer, in mm
+  const auto sunk = [&](const auto& weight) {  // how far the last layer sinks on average, in mm
     //! [bonds]
     const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference), {.spacing = l0}, hmps::EveryBond{}, weight);
     //! [bonds]

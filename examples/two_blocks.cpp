@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A plate is pulled away from under a block of soft tissue. As long as it slides, friction drags the block along
-// with mu g: the program compares the speed that the block has gained.
+// A plate is pulled away from under a block of soft tissue. As long as it slides, friction accelerates the block with
+// mu g: the program compares the speed that the block has gained with mu g t.
 #include <cmath>
 #include <cstdio>
 #include <hmps/hmps.hpp>
@@ -16,9 +16,9 @@ int main() {
   const hmps::Box<double, 3> block{Vector(-0.008, -0.008, 0), Vector(0.008, 0.008, 0.012)};
   const Vector middle = Vector::Constant(l0 / 2);
   std::vector<Vector> reference = hmps::fill_lattice(plate, l0, middle);
-  const std::size_t first = reference.size();  // of the block
+  const std::size_t first = reference.size();  // first particle of the block
   for (const Vector& r : hmps::fill_lattice(block, l0, middle)) reference.push_back(r);
-  const auto near = [&](bool of_block, double depth) {  // the particles of one body that are near the other
+  const auto near = [&](bool of_block, double depth) {  // the particles of one body that are close to the other
     std::vector<hmps::Index> list;
     for (std::size_t i = 0; i < reference.size(); ++i)
       if ((i >= first) == of_block && std::abs(reference[i][2]) < depth) list.push_back(static_cast<hmps::Index>(i));

@@ -40,8 +40,8 @@ void report(const Summary& summary) {
   if (summary.failure) std::cerr << summary.case_name << " stopped: " << *summary.failure << '\n';
 }
 
-/// Throws `InputError` where another process is running one of the cases in the same folder: before the first begins,
-/// not once it is the turn of the last.
+/// Throws `InputError` if another process is running one of the cases in the same folder: before the first case begins,
+/// not only when it is the turn of the last.
 void require_free_folders(const Options& options) {
   for (const std::string& name : options.cases) {
     const auto folder = std::filesystem::path(options.out) / name;
@@ -50,7 +50,7 @@ void require_free_folders(const Options& options) {
   }
 }
 
-/// Writes what compares all cases in the output folder that were run with these settings, also at another time.
+/// Writes the comparison of all cases in the output folder that were run with these settings, including earlier runs.
 void compare_cases(const Options& options) {
   const std::filesystem::path out(options.out);
   const examples::FolderLock lock(out, examples::FolderLock::Taken::wait);
@@ -63,8 +63,8 @@ void compare_cases(const Options& options) {
   draw_fold(out / "fold.png", results);
 }
 
-/// Runs the cases, as many at a time as there are threads: cases need not wait for each other, while the threads of one
-/// do so several times in a step. Returns whether all came to their end.
+/// Runs the cases, as many at a time as there are threads: cases need not wait for each other, whereas the threads of
+/// one case do so several times in a step. Returns whether all cases reached their end.
 bool run_cases(const Options& options) {
   Options one = options;
   const auto workers = std::min(options.cases.size(), static_cast<std::size_t>(options.threads));

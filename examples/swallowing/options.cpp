@@ -39,8 +39,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   for (const Quality& q : qualities) names.emplace_back(q.name);
   app.add_option(
          "--quality", quality,
-         "spacing, time step and scalar in one: draft (default), standard, paper or fine; what is named beside it "
-         "overrules it")
+         "spacing, time step and scalar in one: draft (default), standard, paper or fine; options that are given as "
+         "well overrule it")
       ->type_name("NAME")
       ->check(CLI::IsMember(names));
   auto* spacing =
@@ -51,13 +51,13 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
           ->check(within(0.5e-3, 2.4e-3, "the spacing is in metres and must lie between 0.5e-3 and 2.4e-3"));
   auto* time_step =
       number(app.add_option("--time-step", options.time_step,
-                            "time step in s, 0: follows the estimate of the largest stable step (default: 0; paper: "
+                            "time step in s; 0: follows the estimate of the largest stable step (default: 0; paper: "
                             "1e-5)"),
              "S")
           ->check(within(0, 1e-3, "the time step is in seconds and must lie between 0 (automatic) and 1e-3"));
   number(app.add_option("--until", options.until, "end of the simulated time in s (default: 2.05)"), "S")
       ->check(within(1e-9, end_of_swallow,
-                     "the end is in seconds and must lie above 0 and at most at 2.05, where the "
+                     "the end is in seconds and must be above 0 and at most 2.05, where the "
                      "swallow ends"));
   number(app.add_option("--friction", options.friction, "friction coefficient instead of the cases' 0.1 and 0.3"), "MU")
       ->check(within(0, 10, "the friction coefficient must lie between 0 and 10"));
@@ -69,9 +69,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
       ->transform(whole_within(1, hmps::OpenMP::most_threads(),
                                "the number of threads must lie between 1 and " +
                                    std::to_string(hmps::OpenMP::most_threads()) +
-                                   ", four for each processor here: more only wait for each other"));
+                                   ", four for each processor here: more would only wait for each other"));
   app.add_option("--out", options.out, "output folder (default: results)")->type_name("DIR");
-  app.add_flag("--resume", options.resume, "continue from the last checkpoints in the output folder, to the same bits");
+  app.add_flag("--resume", options.resume,
+               "continue from the last checkpoints in the output folder; results are identical to the bit");
   app.add_flag("--no-frames", no_frames, "write no frames for ParaView");
   number(app.add_option("--frame-interval", options.frame_interval, "time between frames in s (default: 0.01)"), "S")
       ->check(within(1e-5, 10, "the time between frames is in seconds and must lie between 1e-5 and 10"));
@@ -99,11 +100,11 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   number(app.add_option("--penalty-ratio", options.penalty_ratio,
                         "spring ratio k~ of eq. 25, k = k~ rho / dt^2 (paper: 0.3)"),
          "R")
-      ->check(within(1e-9, 0.99, "the spring ratio must lie above 0 and at most at 0.99"))
+      ->check(within(1e-9, 0.99, "the spring ratio must be above 0 and at most 0.99"))
       ->excludes(fixed)
       ->group(experiments);
   number(app.add_option("--step-share", options.step_share,
-                        "share of the largest stable step that a step takes (default: 0.8)"),
+                        "time step as a share of the largest stable step (default: 0.8)"),
          "R")
       ->check(within(1e-3, 2, "the share of the stable step must lie between 1e-3 and 2"))
       ->excludes(time_step)
@@ -113,8 +114,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
              "P")
           ->check(within(-1, 1, "the shift of the lattice must lie between -1 and 1 spacings"))
           ->group(experiments);
-  number(app.add_option("--stiffness", options.stiffness, "factor of Young's moduli of all organs"), "R")
-      ->check(within(0.1, 10, "the factor of Young's moduli must lie between 0.1 and 10"))
+  number(app.add_option("--stiffness", options.stiffness, "factor on Young's moduli of all organs"), "R")
+      ->check(within(0.1, 10, "the factor on Young's moduli must lie between 0.1 and 10"))
       ->group(experiments);
   app.add_flag("--without-H", without_h, "leave out region H, the pharyngeal constrictors")->group(experiments);
 
@@ -124,7 +125,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
     if (chosen != "all") options.cases = {chosen};
     options.fitted = particles == "fitted";
     if (options.fitted && !shift->empty())
-      throw CLI::ValidationError(shift->get_name(), "fitted particles lie on no lattice that could be shifted");
+      throw CLI::ValidationError(shift->get_name(), "fitted particles do not lie on a lattice that could be shifted");
     if (options.out.empty()) throw CLI::ValidationError("--out", "the output folder needs a name");
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) {
@@ -138,7 +139,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   const auto named =
       std::find_if(qualities.begin(), qualities.end(), [&](const Quality& q) { return q.name == quality; });
   if (spacing->empty()) options.spacing = named->spacing;
-  // The step that belongs to a quality belongs to its spacing.
+  // The step of a quality is meant for its spacing only.
   if (time_step->empty()) options.time_step = spacing->empty() ? named->time_step : 0;
   options.single_precision = scalar.empty() ? named->single_precision : scalar == "float";
   options.paper_contact = contact == "paper";

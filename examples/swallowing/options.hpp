@@ -14,7 +14,7 @@ namespace swallowing {
 /// The end of the paper's swallow in s.
 inline constexpr double end_of_swallow = 2.05;
 
-/// A named choice of what decides accuracy and cost. What each errs and costs is measured in the README.
+/// A named choice of the settings that decide accuracy and cost. The README gives the measured error and cost of each.
 struct Quality {
   std::string_view name;
   double spacing;         ///< l0 in m
@@ -23,7 +23,7 @@ struct Quality {
   bool operator==(const Quality&) const = default;
 };
 
-/// From the cheapest, which is the default, to the most expensive. Single precision moves no fold time by more than 0.3
+/// From the cheapest, the default, to the most expensive. Single precision moves no fold time by more than 0.3
 /// ms.
 inline constexpr std::array qualities{Quality{"draft", 2.4e-3, 0, true}, Quality{"standard", 1.8e-3, 0, true},
                                       Quality{"paper", 1.2e-3, 1e-5, true}, Quality{"fine", 1e-3, 0, true}};
@@ -34,19 +34,19 @@ struct Options {
   std::vector<std::string> cases{"X1", "X3", "Y1", "Y3"};  ///< in the order in which they are run
   double spacing = default_quality.spacing;                ///< l0 in m
   double time_step = default_quality.time_step;            ///< in s; 0: follows the largest stable step
-  double step_share = 0.8;                                 ///< of the largest stable step, where the step follows it
+  double step_share = 0.8;                                 ///< of the largest stable step, if the step follows it
   double until = end_of_swallow;                           ///< in s
   std::optional<double> friction;                          ///< overrules the friction coefficient of the cases
-  double stiffness = 1;                                    ///< factor of Young's moduli of all organs
-  bool paper_contact = false;                              ///< contact as the paper has it, in place of ours
+  double stiffness = 1;                                    ///< factor on Young's moduli of all organs
+  bool paper_contact = false;                              ///< contact as in the paper, in place of ours
   std::optional<double> penalty;                           ///< fixed k in N/m4, whatever the step
   std::optional<double> penalty_ratio;                     ///< k~ of \paper{25}
   bool single_precision = default_quality.single_precision;
-  bool fitted = false;           ///< particles that are fitted to the organs in place of those of a lattice
+  bool fitted = false;           ///< particles that are fitted to the organs, in place of those of a lattice
   int threads = 0;               ///< at least 1 after parsing: as given, or all cores
   double lattice_shift = 0;      ///< of the particle lattice along x and z, in spacings
   bool constrictors = true;      ///< false: region H is left out
-  bool bar = true;               ///< on a terminal, progress as a bar in one line
+  bool bar = true;               ///< on a terminal, show progress as a bar in one line
   bool frames = true;            ///< write frames for ParaView
   double frame_interval = 0.01;  ///< in s
   std::string out = "results";   ///< the output folder
@@ -57,8 +57,8 @@ struct Options {
 /// The folder of the tracks of the motion: that of the example, unless the options name another.
 [[nodiscard]] std::filesystem::path data_folder(const Options& options);
 
-/// Reads the command line. Gives nothing when the program is to end at once with `exit_code`: 0 after
-/// --help, 2 after a mistake, which is explained on `err`.
+/// Reads the command line. Returns nothing if the program should end at once with `exit_code`: 0 after --help, 2 after
+/// a mistake, which is explained on `err`.
 [[nodiscard]] std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out,
                                                    std::ostream& err, int& exit_code);
 

@@ -136,7 +136,7 @@ class Run {
   }
 
  private:
-  /// Adds to the effort what was spent since this was done last.
+  /// Adds to the effort what was spent since the last call.
   void account() {
     const auto now = std::chrono::steady_clock::now();
     effort_.add(simulation_.time(), std::chrono::duration<double>(now - accounted_).count(),
@@ -206,8 +206,8 @@ class Run {
     state.set("of them for contact", effort_.contact);
     state.save(checkpoint_file());
   }
-  /// The checkpoint to resume from; nothing where the run was stopped before its first. Throws `InputError` where there
-  /// must have been one, or where it is of another run.
+  /// The checkpoint to resume from; nothing if the run was stopped before its first checkpoint. Throws `InputError` if
+  /// there must have been one, or if it is that of another run.
   [[nodiscard]] std::optional<Checkpoint> last_checkpoint() const {
     std::optional<Checkpoint> state = Checkpoint::load(checkpoint_file());
     if (state) {
@@ -217,7 +217,7 @@ class Run {
     }
     const auto samples = read_series(folder_ / "series.csv");
     examples::require(samples.empty() || samples.back().time < checkpoint_interval + sample_interval / 2,
-                      (folder_ / "series.csv").string(), " goes to ", samples.empty() ? 0 : samples.back().time,
+                      (folder_ / "series.csv").string(), " extends to ", samples.empty() ? 0 : samples.back().time,
                       " s, but there is no ", checkpoint_file().string(),
                       " to resume from; put it back, or start anew without --resume");
     std::cerr << examples::message(chosen_.name, ": there is no checkpoint to resume from: starts at 0 s\n");

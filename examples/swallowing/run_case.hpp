@@ -8,10 +8,9 @@
 
 namespace swallowing {
 
-/// Runs one case as the options ask and writes its results into a folder of its own below
-/// `options.out`. What goes wrong while running ends up in `Summary::failure`; all that was computed
-/// until then stays. `fitted`: the particles where the options ask for fitted ones. Throws `hmps::InputError` for what
-/// cannot be run at all.
+/// Runs one case according to the options and writes its results to its own folder below `options.out`. A failure
+/// during the run is reported in `Summary::failure`; the results computed until then remain. `fitted`: the particles if
+/// the options ask for fitted ones. Throws `hmps::InputError` for a case that cannot be run at all.
 Summary run_case(const Options& options, const Case& chosen, const FittedOrgans* fitted = nullptr);
 
 }  // namespace swallowing

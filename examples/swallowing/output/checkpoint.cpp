@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::string_view magic = "hmps swallowing checkpoint\n";
 constexpr std::uint64_t version = 3;
-/// Reads back as another number where the order of bytes differs.
+/// Reads back as another number if the byte order differs.
 constexpr std::uint64_t byte_order = 0x0102030405060708;
 
-/// Of the length as well: the last word of `bytes` is filled up with zeros.
+/// Includes the length, because the last word of `bytes` is padded with zeros.
 [[nodiscard]] std::uint64_t checksum(std::string_view bytes) {
   return examples::checksum(bytes, examples::add_to_checksum(examples::checksum_of_nothing, bytes.size()));
 }
@@ -85,7 +85,7 @@ std::optional<Checkpoint> Checkpoint::load(const std::filesystem::path& path) {
   examples::require(found == version, path.string(), " is a checkpoint of version ", found,
                     ", this program reads version ", version, remedy);
   examples::require(in.number<std::uint64_t>() == byte_order, path.string(),
-                    " was written on a machine with another order of bytes", remedy);
+                    " was written on a machine with another byte order", remedy);
   const std::string_view body = std::string_view(bytes).substr(0, bytes.size() - 8);
   std::uint64_t expected = 0;
   std::memcpy(&expected, bytes.data() + body.size(), 8);

@@ -48,17 +48,17 @@ class Checkpoint {
   [[nodiscard]] bool contains(const std::string& name) const {
     return std::ranges::any_of(arrays_, [&](const Array& array) { return array.name == name; });
   }
-  /// The array stored under `name`. Throws `InputError` if there is none or it is of another type.
+  /// The array stored under `name`. Throws `InputError` if there is none, or if it has another type.
   template <class T>
   [[nodiscard]] std::vector<T> get(const std::string& name) const {
     const Array& array = find(name);
     examples::require(array.width == sizeof(T), "the checkpoint holds ", name, " with ", array.width,
-                      " bytes per element, but ", sizeof(T), " are asked for");
+                      " bytes per element, but ", sizeof(T), " were requested");
     std::vector<T> values(array.bytes.size() / sizeof(T));
     if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
     return values;
   }
-  /// Copies the array stored under `name` into `target`. Throws `InputError` if its size is another.
+  /// Copies the array stored under `name` into `target`. Throws `InputError` if its size differs.
   template <std::ranges::contiguous_range R>
   void get(const std::string& name, R& target) const {
     using T = std::ranges::range_value_t<R>;
@@ -77,10 +77,10 @@ class Checkpoint {
     return values[0];
   }
 
-  /// Writes the checkpoint at `path`, atomically: whatever happens meanwhile, the file there is whole.
+  /// Writes the checkpoint to `path` atomically: whatever happens meanwhile, the file there is complete.
   void save(const std::filesystem::path& path) const;
-  /// Reads the checkpoint at `path`; nothing if there is no file. Throws `InputError` if the file is
-  /// damaged, no checkpoint, or of another version.
+  /// Reads the checkpoint at `path`; nothing if there is no file. Throws `InputError` if the file is damaged, is not a
+  /// checkpoint, or has another version.
   [[nodiscard]] static std::optional<Checkpoint> load(const std::filesystem::path& path);
 
  private:
@@ -94,12 +94,12 @@ class Checkpoint {
   std::vector<Array> arrays_;
 };
 
-/// The first setting in which two runs differ, in words: "spacing 0.0018 in place of 0.0024", where `other` has the
-/// former; nothing if they agree.
+/// The first setting in which two runs differ, in words: "spacing 0.0018 in place of 0.0024", of which `other` has the
+/// first; nothing if they agree.
 [[nodiscard]] std::optional<std::string> first_difference(const RunSettings& other, const RunSettings& settings);
 
-/// Throws `InputError` that names the first difference unless the checkpoint from `path` was written
-/// by a run with the same `settings`.
+/// Throws `InputError`, naming the first difference, unless the checkpoint from `path` was written by a run with the
+/// same `settings`.
 void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
                            const std::filesystem::path& path);
 

@@ -24,7 +24,7 @@ template <class... Values>
 
 [[nodiscard]] const char* motion(const Case& paper) { return paper.model == Model::X ? "X" : "Y"; }
 
-/// Our result in words: a time, that it did not fold, or why nothing can be said.
+/// Our result in words: a time, that it did not fold, or why there is no result.
 [[nodiscard]] std::string ours(const CaseResult& result) {
   if (!result.left_out.empty()) return "other settings";
   if (!result.summary) return "not run";
@@ -40,7 +40,7 @@ template <class... Values>
   return format("%+.0f ms", 1e3 * (*result.summary->fold_time - *paper.fold_time));
 }
 
-/// The contacts at `path`, whose columns are those that its scene had; nothing if there is no file.
+/// The contacts at `path`, with the columns that its scene had; nothing if there is no file.
 [[nodiscard]] ContactTable read_contacts(const std::filesystem::path& path) {
   ContactTable table;
   if (!std::filesystem::exists(path)) return table;
@@ -58,7 +58,7 @@ template <class... Values>
 constexpr Colour ink = Colour::hex(0x1d2430);
 constexpr Colour faint = Colour::hex(0x6b7480);
 constexpr Colour grid = Colour::hex(0xe3e7ec);
-/// X in warm, Y in cold colours; the low friction dark, the high one light.
+/// X in warm and Y in cold colours; low friction dark, high friction light.
 constexpr std::array<Colour, 4> colours{Colour::hex(0xc01c28), Colour::hex(0xf08c2e), Colour::hex(0x1a5fb4),
                                         Colour::hex(0x33b1a6)};
 
@@ -154,7 +154,7 @@ void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4
   canvas.line(left, py(0), left + width, py(0), ink, 1.6);
   canvas.text(left + 12, py(0) + 24, "below the horizontal: folded", 15, faint);
 
-  // Marks of the paper; the two that share one time stand side by side.
+  // The paper's times; marks that share one time stand side by side.
   double last_time = 0;
   int level = 0;
   for (std::size_t i = 0; i < 4; ++i) {

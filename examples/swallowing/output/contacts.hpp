@@ -16,14 +16,14 @@
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
-/// What organs do to each other and how the epiglottis lies, as contacts.csv has it, by which the mechanisms of
+/// The contents of contacts.csv: how organs act on each other and how the epiglottis lies, from which the mechanisms of
 /// section 3.5 of the paper can be told apart.
 namespace swallowing {
 
 /// The organs that may turn the epiglottis, in the order of the columns `moment_...`.
 inline constexpr std::array turning{Organ::tongue, Organ::pharynx, Organ::larynx, Organ::vallecula};
 
-/// The name of an organ as part of a column's.
+/// The name of an organ as part of a column name.
 [[nodiscard]] inline std::string column_name(Organ organ) {
   std::string text(name(organ));
   std::replace(text.begin(), text.end(), ' ', '_');
@@ -45,8 +45,8 @@ inline constexpr std::array turning{Organ::tongue, Organ::pharynx, Organ::larynx
 
 namespace detail {
 
-/// Gap in m between the upper half of the leaf and the larynx: of the surfaces of their outermost particles, taken as
-/// balls of the spacing. Infinite where there are none.
+/// Gap in m between the upper half of the leaf and the larynx: between the surfaces of their outermost particles, taken
+/// as balls with the spacing as diameter. Infinite if there are none.
 [[nodiscard]] inline double leaf_to_larynx(const Scene& scene, const std::vector<Eigen::Vector3d>& x,
                                            const Eigen::Vector3d& middle, const Eigen::Vector3d& tipward) {
   double least = std::numeric_limits<double>::infinity();
@@ -58,7 +58,7 @@ namespace detail {
   return std::sqrt(least) - scene.spacing;
 }
 
-/// Gap in m between the arytenoids, regions D, from side to side. Infinite where they have no particles.
+/// Gap in m between the arytenoids, regions D, from side to side. Infinite if they have no particles.
 [[nodiscard]] inline double glottis(const Scene& scene, const std::vector<Eigen::Vector3d>& x) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double left = -infinite, right = infinite;
@@ -73,10 +73,11 @@ namespace detail {
 
 }  // namespace detail
 
-/// A row of contacts.csv for the present state and the contact of the step before. Heights and gaps in mm. Moments in
-/// mN m, about the middle of the leaf, of what presses on its upper half; positive turns the tip backwards and down.
-/// Of each pair of organs: the area in mm2 that touches, as the mean of what the touching slaves of both organs cover
-/// at rest; the sums in N of the normal and of the friction forces on them.
+/// A row of contacts.csv for the present state and the contact of the previous step. Heights and gaps are in mm.
+/// Moments are in mN m, about the middle of the leaf, of the forces that press on its upper half; a positive moment
+/// turns the tip backwards and down. For each pair of organs: the area in mm2 that touches, as the mean of the areas
+/// that the touching slaves of both organs cover at rest, and the sums in N of the normal and of the friction forces on
+/// them.
 template <class S>
 [[nodiscard]] std::vector<double> observe_contacts(Simulation<S>& simulation, const Scene& scene) {
   const auto& x = simulation.position_array();

@@ -15,10 +15,10 @@
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
-/// What a run says of its scene before it starts, each in a line of text.
+/// What a run reports on its scene before it starts, one line of text each.
 namespace swallowing {
 
-/// How many particles there are, the step, and what limits it.
+/// The numbers of particles, the step, and what limits it.
 template <class S>
 [[nodiscard]] std::string describe_step(const Summary& summary, const Simulation<S>& simulation, const Scene& scene,
                                         bool step_is_given) {
@@ -31,7 +31,7 @@ template <class S>
                            name(scene.organ[limit.particle]), ")\n");
 }
 
-/// How many particles each control region has, those of one name together.
+/// The number of particles of each control region; regions with the same name are counted together.
 [[nodiscard]] inline std::string describe_regions(const Summary& summary, const Scene& scene) {
   const auto particles = scene.particles_of_regions();
   std::vector<std::pair<std::string, std::size_t>> counts;

@@ -6,7 +6,7 @@
 
 namespace swallowing {
 
-/// A number that changes with a text that is given piece by piece (FNV-1a): tells whether it is still the same.
+/// A hash (FNV-1a) of a text that is given piece by piece, to detect whether the text has changed.
 class Digest {
  public:
   Digest() = default;

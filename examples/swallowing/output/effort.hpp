@@ -9,12 +9,12 @@
 
 namespace swallowing {
 
-/// Seconds that a run took, in all and for contact, for each tenth of a second that it simulated.
+/// Seconds that a run took for each simulated tenth of a second, in total and for contact.
 struct Effort {
   static constexpr double tenth = 0.1;  // s
   std::vector<double> wall, contact;
 
-  /// Adds what was spent until the simulated time came to `time`.
+  /// Adds the time spent until the simulated time reached `time`.
   void add(double time, double wall_seconds, double contact_seconds) {
     const auto bin = static_cast<std::size_t>(std::max(std::ceil(time / tenth - 1e-6), 1.0)) - 1;
     wall.resize(std::max(wall.size(), bin + 1));

@@ -12,7 +12,7 @@
 namespace swallowing {
 namespace {
 
-/// Adds what is in the tracks of the motion.
+/// Adds the contents of the tracks of the motion.
 void add_tracks(RunSettings& settings, const std::filesystem::path& data) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(data)) files.push_back(entry.path());

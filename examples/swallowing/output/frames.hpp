@@ -19,9 +19,9 @@ namespace swallowing {
 /// is complete at any moment, so that a run can be watched while it goes on.
 class Frames {
  public:
-  /// Begins the frames of a case, and removes those of an earlier run; or continues behind those up to
-  /// `resume_time`, the time of the checkpoint from which the run is resumed, of which there were `before`. Throws
-  /// `InputError` where any of these is missing.
+  /// Begins the frames of a case and removes those of an earlier run; or, if the run is resumed from a checkpoint at
+  /// `resume_time`, continues after the `before` frames up to that time. Throws `InputError` if any of these is
+  /// missing.
   explicit Frames(const std::filesystem::path& folder, std::optional<double> resume_time = {}, std::size_t before = 0)
       : folder_(folder) {
     namespace fs = std::filesystem;

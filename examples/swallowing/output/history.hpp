@@ -15,17 +15,17 @@
 
 namespace swallowing {
 
-/// What the run of a case leaves of its course in its folder: the series, the contacts, the snapshots for its sheet,
-/// and frames. A checkpoint holds the state alone. So it is written after all of these are on the disk and keeps how
-/// far they had come, and a run is resumed only where they still are what they were.
+/// The record of a run that its folder keeps: the series, the contacts, the snapshots for its sheet, and frames. A
+/// checkpoint holds the state alone. Therefore it is written after all of these are on the disk and records how far
+/// they had come, and a run is resumed only if they are still unchanged up to there.
 struct History {
   Series series;
   TimeTable contacts;
   Snapshots snapshots;
   std::optional<Frames> frames;
 
-  /// Begins anew and removes what an earlier run has left; or continues behind the checkpoint `resumed`. Throws
-  /// `InputError` where anything from before it is lost or changed.
+  /// Begins anew and removes what an earlier run has left; or continues after the checkpoint `resumed`. Throws
+  /// `InputError` if anything from before it is lost or changed.
   History(const std::filesystem::path& folder, const std::string& contacts_header, bool with_frames,
           const std::optional<Checkpoint>& resumed)
       : series(begin(folder, resumed) / "series.csv", mark("series", resumed)),
@@ -34,13 +34,13 @@ struct History {
     for (std::size_t panel = 0; resumed && panel < picture_times.size(); ++panel)
       examples::require(picture_times[panel] > resumed->time + 5e-10 || snapshots.load(panel), "in ",
                         (folder / "snapshots").string(), " the moment at ", picture_times[panel],
-                        " s is missing, which was before the checkpoint; put its file back, or start anew without "
+                        " s, before the checkpoint, is missing; put its file back, or start anew without "
                         "--resume");
     if (resumed) frames_before_ = resumed->value<std::uint64_t>("frames");
     if (with_frames) frames.emplace(folder, time(resumed), frames_before_);
   }
 
-  /// Writes all to the disk, and into `checkpoint` how far it has come.
+  /// Writes everything to the disk, and records in `checkpoint` how far it has come.
   void flush(Checkpoint& checkpoint) {
     checkpoint.set("series", std::array{series.flush_to_disk()});
     checkpoint.set("contacts", std::array{contacts.flush_to_disk()});
@@ -48,7 +48,8 @@ struct History {
   }
 
  private:
-  /// Removes what is no longer true once the run has begun; first what a run would be resumed from.
+  /// Removes what is no longer true once the run has begun; first of all the checkpoint, from which a run would be
+  /// resumed.
   static const std::filesystem::path& begin(const std::filesystem::path& folder,
                                             const std::optional<Checkpoint>& resumed) {
     for (const char* file : {"checkpoint.bin", "summary.json", "sheet.png", "frames.pvd"})

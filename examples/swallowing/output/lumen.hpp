@@ -10,8 +10,8 @@
 
 #include "scene/scene.hpp"
 
-/// How far the channel of the pharynx is closed, by gaps between the outermost particles of organs, taken as balls of
-/// the spacing. Infinite where there are no such particles.
+/// How far the channel of the pharynx is closed, measured by gaps between the outermost particles of organs, taken as
+/// balls with the spacing as diameter. Gaps are infinite if there are no such particles.
 namespace swallowing {
 
 /// Heights in m at which the width of the pharynx is observed: in front of the superior, the middle and the inferior
@@ -20,7 +20,8 @@ inline constexpr std::array<double, 3> observed_heights{65e-3, 40e-3, 22e-3};
 
 namespace detail {
 
-/// Calls `visit(first, second)` with the outermost particles of each pair of two organs in contact.
+/// Calls `visit(first, second)` with the outermost particles of the organs `first` and `second`, for each contact pair
+/// of the two.
 template <class Visit>
 void for_each_skin(const Scene& scene, Organ first, Organ second, Visit&& visit) {
   for (const ContactPair& pair : scene.contacts)

@@ -7,9 +7,9 @@
 
 namespace swallowing {
 
-/// The angle above the horizontal, in degrees, of the line from `from` to `to`: positions with x
-/// posterior and z superior, in m; what they have of y does not count. An upright epiglottis that
-/// leans back has less than 90, one that folded below the horizontal less than 0.
+/// The angle above the horizontal, in degrees, of the line from `from` to `to`: positions with x posterior and z
+/// superior, in m; y does not count. The angle of an upright epiglottis that leans back is below 90, that of one that
+/// has folded below the horizontal is below 0.
 template <class Point>
 [[nodiscard]] double angle_above_horizontal(const Point& from, const Point& to) {
   const double posterior = static_cast<double>(to[0]) - static_cast<double>(from[0]);
@@ -17,11 +17,11 @@ template <class Point>
   return std::atan2(superior, posterior) * 180 / std::numbers::pi;
 }
 
-/// The first time at which an angle that is given sample by sample passes below zero, as the paper's
-/// Table 2 reads its times of downfolding.
+/// The first time at which an angle, given sample by sample, passes below zero: the definition of the times of
+/// downfolding in the paper's Table 2.
 class FoldTime {
  public:
-  /// The angle is `angle` at `time`, a time later than those before.
+  /// Adds the sample `angle` at `time`, which must be later than the times before.
   void add(double time, double angle) {
     if (!found_ && angle < 0) {
       // Between two samples the angle is taken as linear.
@@ -32,9 +32,9 @@ class FoldTime {
     last_angle_ = angle;
     if (!(angle >= smallest_)) smallest_ = angle;
   }
-  /// The time in s, or nothing if the angle never was below zero.
+  /// The time in s, or nothing if the angle was never below zero.
   [[nodiscard]] std::optional<double> time() const { return found_; }
-  /// The smallest angle of all samples, NaN without any.
+  /// The smallest angle of all samples; NaN if there are none.
   [[nodiscard]] double smallest() const { return smallest_; }
 
  private:

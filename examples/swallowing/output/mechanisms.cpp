@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double descent = 1.4;         // s, when the leaf has begun to turn
-constexpr double end_of_descent = 1.8;  // s, where it never folds
+constexpr double end_of_descent = 1.8;  // s, if it never folds
 
 [[nodiscard]] std::string number(const char* pattern, double value, double time = nothing) {
   if (!std::isfinite(value)) return "–";
@@ -30,7 +30,7 @@ constexpr double end_of_descent = 1.8;  // s, where it never folds
   return words;
 }
 
-/// The column of one name of the contacts of a case, between two times.
+/// The contacts of a case between two times, by the names of their columns.
 struct Extract {
   const ContactTable& table;
   double from, to;
@@ -61,7 +61,7 @@ struct Line {
   std::function<std::string(const CaseResult&, const Case&)> value;
 };
 
-/// From where the leaf has begun to turn until it folds.
+/// From when the leaf has begun to turn until it folds.
 [[nodiscard]] Extract falling(const CaseResult& result) {
   return {result.contacts, descent, result.summary->fold_time.value_or(end_of_descent)};
 }

@@ -17,7 +17,7 @@
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
-/// What is looked at while the swallow runs: samples for the series, frames, pictures.
+/// What is observed while the swallow runs: samples for the series, frames, pictures.
 namespace swallowing {
 
 /// Mean position (m) of a set of particles.
@@ -36,8 +36,7 @@ template <class S>
       [&](std::size_t i) { return scene.region[i] < 0; }, simulation.executor());
 }
 
-/// What the series keeps of the present state; `penetration` in spacings is the largest since the
-/// sample before.
+/// The sample of the present state for the series; `penetration` (spacings) is the largest since the previous sample.
 template <class S>
 [[nodiscard]] Sample observe(Simulation<S>& simulation, const Scene& scene, double penetration) {
   const auto& x = simulation.position_array();
@@ -62,7 +61,7 @@ template <class S>
   return sample;
 }
 
-/// Throws `hmps::StateError`, naming the particle and its organ, once the state no longer means anything.
+/// Throws `hmps::StateError`, naming the particle and its organ, once the state is meaningless.
 template <class S>
 void check(Simulation<S>& simulation, const Scene& scene) {
   hmps::check_state(simulation.positions(), simulation.velocities(), simulation.gradients(),

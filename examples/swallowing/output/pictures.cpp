@@ -43,15 +43,15 @@ constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
   return text;
 }
 
-/// What of the sagittal plane a panel shows, in m, and at how many pixels per m.
+/// The part of the sagittal plane that a panel shows, in m, and its scale in pixels per m.
 struct Window {
   double x0, z0, x1, z1, scale;
   [[nodiscard]] double px(double x) const { return (x - x0) * scale; }
   [[nodiscard]] double py(double z) const { return (z1 - z) * scale; }
 };
 
-/// The particles of the right half, y >= 0, the nearest to the midsagittal plane last. The viewer
-/// stands on the left: x, posterior, runs to the right.
+/// Draws the particles of the right half, y >= 0, those closest to the midsagittal plane last. The viewer stands on the
+/// left: x, posterior, runs to the right.
 void draw_particles(Canvas& canvas, const Snapshot& s, const Window& window) {
   std::vector<std::size_t> order(s.positions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -93,7 +93,7 @@ void draw_angle(Canvas& canvas, const Snapshot& s, const Window& window) {
 }
 
 void draw_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
-  // Only what is there, the organs in their own order.
+  // Only what is present, the organs in their own order.
   std::vector<bool> seen(s.organs.size(), false);
   bool control = false, plate = false;
   for (std::size_t i = 0; i < s.organ.size(); ++i) {
@@ -137,7 +137,7 @@ std::filesystem::path Snapshots::file(std::size_t panel) const {
 }
 
 void Snapshots::add(std::size_t panel, const Snapshot& snapshot) const {
-  Checkpoint box;  // the same container: whole or not there, with a checksum
+  Checkpoint box;  // used as a container: either complete or absent, with a checksum
   box.time = snapshot.time;
   for (const std::string& organ : snapshot.organs) box.settings.emplace_back("organ", organ);
   box.set("spacing", snapshot.spacing);

@@ -13,14 +13,14 @@ namespace swallowing {
 /// The times in s of the paper's Figs 13 and 15: those of the panels of the sheet.
 inline constexpr std::array<double, 9> picture_times{0, 0.5, 1.383, 1.583, 1.667, 1.677, 1.683, 1.7, 2.05};
 
-/// How a particle moves, and so how it is drawn.
+/// How a particle moves, and therefore how it is drawn.
 enum class Role : std::uint8_t {
   free,     ///< in the colour of its organ
   control,  ///< dark, a control region of elastic particles
-  plate     ///< grey, region H, which only touches
+  plate     ///< grey, region H, which acts by contact only
 };
 
-/// All that a picture needs of one moment. The three ranges of particles have one size.
+/// Everything that a picture needs of one moment. The three arrays of particles have equal size.
 struct Snapshot {
   double time = 0;                              ///< s
   double spacing = 0;                           ///< m
@@ -36,8 +36,8 @@ struct Snapshot {
 /// was stopped and resumed still draws all of them.
 class Snapshots {
  public:
-  /// Begins the snapshots of a case and removes those of an earlier run; or keeps those up to
-  /// `resume_time`, the time of the checkpoint from which the run is resumed.
+  /// Begins the snapshots of a case and removes those of an earlier run; or keeps those up to `resume_time`, the time
+  /// of the checkpoint if the run is resumed.
   explicit Snapshots(const std::filesystem::path& folder, std::optional<double> resume_time = {});
 
   /// Keeps `snapshot` for the panel of `picture_times[panel]`.
@@ -50,8 +50,8 @@ class Snapshots {
   std::filesystem::path folder_;
 };
 
-/// Draws sheet.png at `path`: the right half of the particles seen from the midsagittal plane, as the
-/// paper's Figs 13, 15 and 16 show them, at all times that were reached. `title` stands above.
+/// Draws sheet.png at `path`: the right half of the particles seen from the midsagittal plane, as the paper's Figs 13,
+/// 15 and 16 show them, at all times that were reached. `title` is written above.
 void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title);
 
 }  // namespace swallowing

@@ -49,7 +49,7 @@ Progress::Progress(std::ostream& out, Settings settings, Clock clock)
 
 void Progress::update(double time, std::uint64_t steps, double smallest_j) {
   if (settings_.terminal) {
-    if ((steps & 7) != 0) return;  // the clock is not free
+    if ((steps & 7) != 0) return;  // reading the clock takes time
     const double now = clock_();
     if (now - drawn_ < 0.1) return;
     drawn_ = now;
@@ -79,7 +79,7 @@ void Progress::draw(double time, std::uint64_t steps, double smallest_j) {
   const std::string numbers = format("%5.3f s  %sparticle-steps/s  %s left  J > %.3f", time, with_prefix(rate).c_str(),
                                      duration(left).c_str(), smallest_j);
   if (!settings_.terminal) {
-    // In one piece: other cases may be writing their lines.
+    // In one piece, because other cases may be writing their lines.
     *out_ << settings_.name + ' ' + format("%3.0f %%  ", 100 * share) + numbers + '\n' << std::flush;
     return;
   }

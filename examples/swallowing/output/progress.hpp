@@ -9,8 +9,8 @@
 
 namespace swallowing {
 
-/// Shows how far a case is: one line that is drawn over itself on a terminal, else a plain line for
-/// every twentieth of the way (for log files).
+/// Shows how far a case has come: on a terminal by one line that is redrawn in place, otherwise (for log files) by a
+/// plain line for every twentieth of the way.
 class Progress {
  public:
   struct Settings {
@@ -18,7 +18,7 @@ class Progress {
     double start = 0;           ///< simulated time in s where this process begins, > 0 after --resume
     double until = 2.05;        ///< simulated time in s where it ends
     std::size_t particles = 0;  ///< of one step
-    bool terminal = false;      ///< draw over the line; see `is_terminal`
+    bool terminal = false;      ///< redraw the line in place; see `is_terminal`
     int width = 100;            ///< characters of the line
   };
   /// Seconds from any fixed moment.
@@ -26,7 +26,7 @@ class Progress {
 
   Progress(std::ostream& out, Settings settings, Clock clock = steady_seconds);
 
-  /// Says that `steps` steps were done since the start, up to `time`. Cheap enough for every step.
+  /// Reports that `steps` steps were taken since the start, up to `time`. Cheap enough for every step.
   void update(double time, std::uint64_t steps, double smallest_j);
   /// Draws the end of the line, so that other text can follow.
   void finish(double time, std::uint64_t steps, double smallest_j);

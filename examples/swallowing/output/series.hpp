@@ -22,8 +22,8 @@ struct Sample {
   double largest_j = 1;
   double mean_j = 1;
   double largest_speed = 0;  ///< m/s
-  double contacts = 0;       ///< number of slaves that touch
-  double penetration = 0;    ///< largest since the sample before, spacings
+  double contacts = 0;       ///< number of slaves in contact
+  double penetration = 0;    ///< largest since the previous sample, spacings
 
   static constexpr const char* header =
       "time,tip_angle,base_angle,kinetic_energy,strain_energy,artificial_energy,smallest_j,largest_j,mean_j,"
@@ -37,8 +37,8 @@ struct Sample {
   }
 };
 
-/// The samples in the file at `path`, none if there is no file. A last line that was cut short by the
-/// end of the program that wrote it is left out. Throws `InputError` if it is no series of this program.
+/// The samples in the file at `path`, none if there is no file. Ignores a last line that was cut short because the
+/// program that wrote it ended. Throws `InputError` if the file is not a series of this program.
 [[nodiscard]] inline std::vector<Sample> read_series(const std::filesystem::path& path) {
   std::vector<Sample> samples;
   for (const auto& row : read_table(path, Sample::header)) samples.push_back(Sample::of(row));
@@ -58,7 +58,7 @@ class Series {
     samples_.push_back(sample);
     table_.add(sample.values());
   }
-  /// All samples since the start of the case, also those from before it was resumed.
+  /// All samples since the start of the case, including those from before it was resumed.
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
   /// See `TimeTable::flush_to_disk`.
   [[nodiscard]] TableMark flush_to_disk() { return table_.flush_to_disk(); }

@@ -14,7 +14,7 @@
 
 namespace swallowing {
 
-/// Watches how near the steps of a run come to the limit of stability, keeps it in the summary, and lets the steps
+/// Watches how close the steps of a run come to the limit of stability, records it in the summary, and lets the steps
 /// follow the limit.
 template <class S>
 class StepWatch {
@@ -22,7 +22,7 @@ class StepWatch {
   StepWatch(Simulation<S>& simulation, const Scene& scene, Summary& summary, bool step_is_given)
       : simulation_(simulation), scene_(scene), summary_(summary), step_is_given_(step_is_given) {}
 
-  /// Keeps how near the step is to the limit, and warns where it is beyond.
+  /// Records how close the step is to the limit, and warns if it is beyond.
   void compare(double time) {
     const auto& now = simulation_.step_limit();
     const double step = simulation_.time_step(), share = step / now.limit;
@@ -36,8 +36,8 @@ class StepWatch {
                                      " (", nearest->organ, ") sets; try a smaller ",
                                      step_is_given_ ? "--time-step\n" : "--step-share\n");
   }
-  /// Looks at the limit again, for the steps that were taken, and lets those to come follow it. Throws `StateError`
-  /// where it has all but vanished, since a run would not come to its end.
+  /// Updates the limit, compares the step with it, and lets the coming steps follow it. Throws `StateError` if the
+  /// limit has all but vanished, since the run would never end.
   void refresh(double time) {
     simulation_.refresh_step_limit();
     compare(time);
@@ -53,7 +53,7 @@ class StepWatch {
   }
 
  private:
-  static constexpr double least_limit = 0.05;  // as a share of that at rest
+  static constexpr double least_limit = 0.05;  // as a share of the limit at rest
 
   [[nodiscard]] std::string organ_of_limit() const {
     return std::string(name(scene_.organ[simulation_.step_limit().particle]));

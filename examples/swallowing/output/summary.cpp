@@ -20,7 +20,7 @@ template <class T>
 [[nodiscard]] std::optional<T> optional(const Json& json, const char* name) {
   return json.at(name).is_null() ? std::nullopt : std::optional<T>(json.at(name).get<T>());
 }
-/// A number of a file in which null stands for what was not finite.
+/// A number of a file in which null stands for a value that was not finite.
 [[nodiscard]] double number(const Json& json, const char* name) {
   return optional<double>(json, name).value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -105,7 +105,7 @@ std::optional<Summary> read_summary(const std::filesystem::path& path) {
     s.contact_share = number(json, "contact_share");
     s.contact_share_per_tenth = json.at("contact_share_per_tenth").get<std::vector<double>>();
     s.failure = optional<std::string>(json, "failure");
-    if (json.contains("settings"))  // An earlier version did not tell them: they agree with nothing.
+    if (json.contains("settings"))  // An earlier version did not write them: it agrees with nothing.
       for (const auto& [name, value] : json.at("settings").items())
         s.settings.emplace_back(name, value.get<std::string>());
     return s;

@@ -19,16 +19,16 @@ struct DetF {
   double max = 0;
 };
 
-/// How near to instability a case came, by the estimates that were made of the largest stable step without contact.
+/// How close to instability a case came, according to the estimates of the largest stable step without contact.
 struct NearestToLimit {
   double share = 0;            ///< largest ratio of a step to the limit
-  double limit = 0;            ///< s, then
-  double time = 0;             ///< s, when that was
-  std::uint64_t particle = 0;  ///< that set the limit
+  double limit = 0;            ///< s, the limit at that time
+  double time = 0;             ///< s, the time of that step
+  std::uint64_t particle = 0;  ///< the one that set the limit
   std::string organ;           ///< of that particle
 };
 
-/// What is worth knowing of a case that was run: the content of its summary.json, under these names.
+/// The summary of a case that was run: the contents of its summary.json, under these names.
 struct Summary {
   std::string case_name;  ///< "case" in the file
   std::string scalar = "double";
@@ -37,7 +37,7 @@ struct Summary {
   double friction = 0;
   double penalty = 0;                              ///< k in N/m4
   bool paper_contact = false;                      ///< --contact paper
-  double time_step = 0;                            ///< s, in the mean
+  double time_step = 0;                            ///< s, on average
   double time_step_min = 0, time_step_max = 0;     ///< s
   double time_step_limit = 0;                      ///< s, the estimate of the largest stable step at rest
   std::optional<NearestToLimit> nearest_to_limit;  ///< nothing before the first step
@@ -53,13 +53,13 @@ struct Summary {
   double wall_seconds = 0;
   double particle_steps_per_second = 0;
   double contact_share = 0;  ///< of the wall clock
-  /// The same of each tenth of a second that was simulated: free motion, the squeeze, and what is between.
+  /// The same for each simulated tenth of a second: free motion, the squeeze, and what is between.
   std::vector<double> contact_share_per_tenth;
-  std::optional<std::string> failure;  ///< why the run ended before its time
+  std::optional<std::string> failure;  ///< why the run ended early
   RunSettings settings;                ///< see `shared_settings`
 };
 
-/// Writes `summary` as JSON, atomically. What is not finite or not there becomes null.
+/// Writes `summary` as JSON, atomically. Values that are missing or not finite become null.
 void write_summary(const std::filesystem::path& path, const Summary& summary);
 
 /// Reads what `write_summary` wrote; nothing if there is no such file.

@@ -26,8 +26,8 @@ struct TableMark {
 
 using TableRows = std::vector<std::vector<double>>;
 
-/// The rows of numbers in `text`, whose first line is `header`, none if it is empty. A last line that was cut short by
-/// the end of the program that wrote it is left out. Throws `InputError`, naming `path`, if it is no such table.
+/// The rows of numbers in `text`, whose first line is `header`; none if it is empty. Ignores a last line that was cut
+/// short because the program that wrote it ended. Throws `InputError`, naming `path`, if it is not such a table.
 [[nodiscard]] inline TableRows parse_table(std::string_view text, std::string_view header,
                                            const std::filesystem::path& path) {
   TableRows rows;
@@ -36,7 +36,7 @@ using TableRows = std::vector<std::vector<double>>;
   examples::require(text.substr(0, text.find('\n')) == header, path.string(), " is not a ", path.filename().string(),
                     " of this program; remove it or choose another folder with --out");
   const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
-  // A diverging run may leave inf and nan in its last lines, which are worth reading, too.
+  // A diverging run may leave inf and nan in its last lines, which are worth reading too.
   for (std::size_t begin = text.find('\n') + 1; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     std::vector<double> row;
@@ -56,7 +56,7 @@ using TableRows = std::vector<std::vector<double>>;
   return rows;
 }
 
-/// The rows of the table at `path`, none if there is no file. Throws as `parse_table` does.
+/// The rows of the table at `path`; none if there is no file. Throws as `parse_table` does.
 [[nodiscard]] inline TableRows read_table(const std::filesystem::path& path, std::string_view header) {
   if (!std::filesystem::exists(path)) return {};
   return parse_table(examples::read_file(path), header, path);
@@ -65,9 +65,9 @@ using TableRows = std::vector<std::vector<double>>;
 /// A table of a case that grows row by row. It can be read at any moment while the case runs.
 class TimeTable {
  public:
-  /// Begins the table; or continues it behind the bytes of `resumed`, the mark in the checkpoint from which the run is
-  /// resumed: later rows are dropped, as they come again. Throws `InputError` where the file has lost or changed
-  /// anything before the mark, since that would not come again.
+  /// Begins the table; or continues it after the bytes of `resumed`, the mark in the checkpoint from which the run is
+  /// resumed: later rows are dropped, because the run writes them again. Throws `InputError` if the file has lost or
+  /// changed anything before the mark, which would not be written again.
   TimeTable(const std::filesystem::path& path, std::string_view header, const std::optional<TableMark>& resumed = {})
       : rows_(resumed ? kept(path, header, *resumed) : TableRows()),
         mark_(resumed.value_or(TableMark())),
@@ -80,9 +80,9 @@ class TimeTable {
     count(examples::csv_line(row));
     file_.add(row);
   }
-  /// All rows since the start of the case, also those from before it was resumed.
+  /// All rows since the start of the case, including those from before it was resumed.
   [[nodiscard]] const TableRows& rows() const { return rows_; }
-  /// Writes all rows to the disk. Only a checkpoint that is written after that may hold the mark that is returned.
+  /// Writes all rows to the disk. Only a checkpoint that is written afterwards may hold the returned mark.
   [[nodiscard]] TableMark flush_to_disk() {
     file_.flush_to_disk();
     return mark_;
@@ -97,7 +97,7 @@ class TimeTable {
   [[nodiscard]] TableRows kept(const std::filesystem::path& path, std::string_view header, const TableMark& mark) {
     const std::string text = std::filesystem::exists(path) ? examples::read_file(path) : std::string();
     examples::require(text.size() >= mark.bytes, path.string(), " has ", text.size(), " of the ", mark.bytes,
-                      " bytes that were written before the checkpoint, and what is lost would not come again; put the "
+                      " bytes that were written before the checkpoint, and the rest would not be rewritten; put the "
                       "whole file back, or start anew without --resume");
     const std::string_view part = std::string_view(text).substr(0, mark.bytes);
     digest_.add(part);

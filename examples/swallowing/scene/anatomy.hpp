@@ -16,12 +16,11 @@
 
 /// The organs of the swallow as implicit shapes.
 ///
-/// Millimetres and degrees; x points to the back, z to the head, y = 0 is the midsagittal plane. The
-/// CT surfaces of the paper are not public: dimensions come from the literature where docs/swallowing
-/// says so, the rest was drawn. Soft sheets are 4.8 mm thick (the pharyngeal wall measures 4.8 mm at
-/// its sides and 3.8 mm behind; an epiglottis with its mucosa 4.7 to 6.8 mm), which is two particles
-/// at the coarsest spacing of 2.4 mm; in millimetres whatever the spacing, so that refining the
-/// lattice does not change the body.
+/// Millimetres and degrees; x points to the back, z to the head, y = 0 is the midsagittal plane. The CT surfaces of the
+/// paper are not public: dimensions come from the literature where docs/swallowing says so; the rest was drawn. Soft
+/// sheets are 4.8 mm thick (the pharyngeal wall measures 4.8 mm at its sides and 3.8 mm behind; an epiglottis with its
+/// mucosa 4.7 to 6.8 mm), which is two particles at the coarsest spacing of 2.4 mm. The thickness is fixed in
+/// millimetres, so that refining the lattice does not change the body.
 namespace swallowing {
 
 using Point = hmps::Vector<double, 3>;
@@ -49,7 +48,7 @@ struct Epiglottis {
   [[nodiscard]] static double half_width(double arc) {
     const double s = std::clamp(arc / (0.6 * length), 0.0, 1.0);
     if (s < 1) return 6 + 6 * s * s * (3 - 2 * s);
-    // Blunt: how far the leaf's corners reach must not hang on where a coarse lattice cuts a point.
+    // Blunt: the reach of the leaf's corners must not depend on where a coarse lattice cuts a pointed end.
     return 12 * std::sqrt(1 - std::pow((arc / length - 0.6) / 0.42, 6));
   }
   [[nodiscard]] static std::vector<hmps::PlateRow<double>> rows() {
@@ -61,7 +60,7 @@ struct Epiglottis {
     return rows;
   }
   [[nodiscard]] double arc(const Point& x) const { return leaf.arc(x); }
-  /// About the distance (mm) to the faces and the edges, negative inside; the leaf goes on beyond its ends.
+  /// The approximate distance (mm) to the faces and the edges, negative inside; the leaf continues beyond its ends.
   [[nodiscard]] double surface(const Point& x) const {
     return std::max(std::abs(normal(x)) - wall / 2, std::abs(x[1]) - half_width(leaf.arc(x)));
   }
@@ -70,7 +69,7 @@ struct Epiglottis {
     if (std::abs(x[1]) > 13 || x[0] < -16 || x[0] > 12 || x[2] < 10 || x[2] > 54) return 10;
     return std::max(surface(x), std::abs(ahead(x)) - 0.3);
   }
-  /// Distance (mm) above the tip, negative below the base, between them zero.
+  /// Distance (mm) above the tip, negative below the base, zero between them.
   [[nodiscard]] double ahead(const Point& x) const {
     const double s = leaf.arc(x);
     const Point off = x - midline(s);
@@ -84,11 +83,11 @@ struct Epiglottis {
   }
 };
 
-/// The tongue: a shell, its inside is left out as in the paper. In the midsagittal plane a polar
-/// curve about `centre`, angles from 0 at the back over 90 at the top.
+/// The tongue: a shell without its inside, as in the paper. In the midsagittal plane it is a polar curve about
+/// `centre`, with the angle 0 at the back and 90 at the top.
 struct Tongue {
   Point centre{-36, 0, 55};
-  /// angle, radius of the surface, half width, thickness of the shell
+  /// Angle, radius of the surface, half width, thickness of the shell.
   Rows<4> profile{{{-66, 31.5, 18, 8.6},
                    {-60, 31.4, 19, 8.6},
                    {-44, 31, 21, 8.6},
@@ -149,7 +148,7 @@ struct SoftPalate {
 
 /// The hard palate: a vault with the alveolar ridge in front.
 struct HardPalate {
-  /// x, height of the middle surface in the midline, half width, depth of the vault
+  /// x, height of the middle surface in the midline, half width, depth of the vault.
   Rows<4> profile{{{-78, 78.3, 7, 1.5},
                    {-72, 85.3, 10, 5},
                    {-67, 89.3, 13, 9},
@@ -204,7 +203,7 @@ struct Pharynx {
   static constexpr double posterior_wall = 10.8;  ///< mm, x of its surface beside the tip of the epiglottis
   static constexpr double closed_below = 31;      ///< mm, upper edge of the front wall
   static constexpr double esophagus_below = -9;
-  /// z: widest at x, surface of the posterior wall, half width, surface of the front wall
+  /// z; x where the channel is widest; x of the posterior wall's surface; half width; x of the front wall's surface.
   Rows<5> profile{{{-40, 12.2, 13.4, 7, 11},
                    {-22, 12.2, 13.4, 7.5, 11},
                    {-16, 12.2, 13.6, 8.5, 10.8},
@@ -221,7 +220,7 @@ struct Pharynx {
                    {87, -3.2, 9, 13.8, -12.5},
                    {98, -2.6, 8.5, 12.8, -12.5}}};
 
-  /// Less than one inside of the channel, homogeneous of degree one about its axis.
+  /// Less than one inside the channel, homogeneous of degree one about its axis.
   [[nodiscard]] double level(const Point& x) const {
     const auto [_, widest, back, half_width, front] = profile(x[2]);
     const double side = x[1] / half_width;
@@ -231,7 +230,7 @@ struct Pharynx {
     const double a = std::abs(side);
     return std::pow(std::pow(ahead, 4) + std::pow(a, 4), 0.25);
   }
-  /// About the distance to the surface of the channel, negative inside of it.
+  /// The approximate distance to the surface of the channel, negative inside.
   [[nodiscard]] double channel(const Point& x) const {
     constexpr double e = 0.05;
     Point slope;
@@ -241,7 +240,7 @@ struct Pharynx {
       slope[c] = (level(x + shift) - level(x - shift)) / (2 * e);
     }
     const double above = level(x) - 1;
-    // Far outside, where the channel narrows quickly, the slope along z would make everything look near.
+    // Far outside, where the channel narrows quickly, the slope along z would make every distance too short.
     const double across = above / std::max(slope.head<2>().norm(), 1e-3);
     return across > 2 * wall ? across : above / std::max(slope.norm(), 1e-3);
   }
@@ -250,7 +249,7 @@ struct Pharynx {
     return std::max({front, bottom - x[2], x[2] - top});
   }
   [[nodiscard]] double operator()(const Point& x) const { return layer(x, 0, wall); }
-  /// Between two distances from the channel.
+  /// Negative between two distances (mm) from the channel.
   [[nodiscard]] double layer(const Point& x, double from, double to) const {
     const double d = channel(x);
     return std::max({from - d, d - to, ends(x)});
@@ -272,8 +271,8 @@ struct Anatomy {
   static constexpr double plate_gap = 0.8;  ///< mm between the wall and the plates H
   static constexpr double plate_from = 25;  ///< degrees from the posterior axis, where the plates begin
 
-  /// The organ at `x` (mm) of the body that deforms, `none` in the air and outside. Where shapes overlap they are one
-  /// body, and the first in this order names the particle.
+  /// The organ of the deforming body at `x` (mm), `none` in the air and outside. Where shapes overlap they are one
+  /// body, and the first in the order of the tests names the particle.
   [[nodiscard]] Organ organ_at(const Point& x) const {
     if (hard_palate(x) < 0) return Organ::hard_palate;
     if (soft_palate(x) < 0) return Organ::soft_palate;
@@ -297,9 +296,10 @@ struct Anatomy {
     if (tongue(x) < 0 && (x[2] > Pharynx::closed_below || channel > 0)) return Organ::tongue;
     return Organ::none;
   }
-  /// About the distance (mm) to the drawn surface of the organs between which the epiglottis folds, negative inside.
+  /// The approximate distance (mm) to the drawn surface of the organs between which the epiglottis folds, negative
+  /// inside.
   [[nodiscard]] double surface(const Point& x) const {
-    // The leaf's faces would go on through the posterior wall.
+    // Otherwise the leaf's faces would continue through the posterior wall.
     const double leaf = std::max(epiglottis.surface(x), std::abs(epiglottis.ahead(x)) - 3);
     return std::min({leaf, pharynx(x), tongue(x)});
   }

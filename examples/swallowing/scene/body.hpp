@@ -23,21 +23,21 @@ namespace detail {
 struct Body {
   std::vector<Point> points;  ///< m
   std::vector<Organ> organ;
-  std::vector<char> depth;             ///< 0: has air beside it, 1: has such a neighbour across the wall, 2: others
+  std::vector<char> depth;             ///< 0: beside air, 1: next to such a particle, 2: others
   std::vector<int> layers;             ///< through the wall at each particle, 0 in bulk; empty on a lattice
-  std::vector<double> layer_spacings;  ///< their distance in m; empty on a lattice
+  std::vector<double> layer_spacings;  ///< distance of the layers in m; empty on a lattice
   std::vector<std::vector<std::pair<std::size_t, Point>>> bonds;  ///< neighbours and r0
   std::vector<std::array<hmps::Index, 2>> cut;                    ///< sorted pairs between which there is air
   std::size_t removed = 0;
 
-  /// Bonds the particles that `near(i, visit)` names by visit(j, r0), unless there is air between them; it is not asked
-  /// about pairs that are `one(i, j)`.
+  /// Bonds particle i to the particles for which `near(i, visit)` calls visit(j, r0), unless there is air between them.
+  /// Pairs for which `one(i, j)` holds are bonded without this test.
   template <class Near, class One>
   void bond(const Anatomy& anatomy, const Near& near, const One& one) {
     bonds.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
       near(i, [&](std::size_t j, const Point& r0) {
-        if (j < i) return;  // Air is looked for once per pair, so that both see the same.
+        if (j < i) return;  // Air is tested once per pair, so that both ends get the same result.
         if (!one(i, j) && air_between(anatomy, 1e3 * points[i], 1e3 * points[j]))
           cut.push_back(ordered(i, j));
         else
@@ -46,7 +46,7 @@ struct Body {
     std::sort(cut.begin(), cut.end());
   }
 
-  /// Leaves out weakly supported particles, until there is none, and loose bits.
+  /// Removes weakly supported particles until there are none, and loose pieces.
   void keep_supported(double spacing) {
     const auto bonded = [this](std::size_t i, std::size_t j) {
       return !std::binary_search(cut.begin(), cut.end(), ordered(i, j));
@@ -85,7 +85,7 @@ struct Body {
   }
 };
 
-/// The depths of particles on a lattice, which have six faces.
+/// `Body::depth` of particles on a lattice, where a particle inside the body has six face neighbours.
 [[nodiscard]] inline std::vector<char> lattice_depths(const Body& body, double spacing) {
   std::vector<char> depth(body.points.size(), 2);
   for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -100,12 +100,13 @@ struct Body {
   return depth;
 }
 
-/// The lattice sites in the organs. The thin edges of the epiglottis keep too few neighbours on a coarse lattice: they
-/// are filled up, and weakly supported particles elsewhere left out.
+/// The lattice sites in the organs. On a coarse lattice the thin edges of the epiglottis have too few neighbours: they
+/// are filled up, and weakly supported particles elsewhere are removed.
 [[nodiscard]] inline Body lattice_body(const Anatomy& anatomy, double spacing, double shift) {
-  // Columns of particles on both sides of the midsagittal plane, none in it: left and right mirror each other. A plane
-  // of particles along the posterior wall, which then is no staircase; z has no such surface and follows x. At 1.8 mm
-  // the fold hangs on this place: see docs/swallowing.md.
+  // Along y, columns of particles lie on both sides of the midsagittal plane and none lies in it, so left and right
+  // mirror each other. Along x, a plane of particles lies along the posterior wall, which is then not a staircase.
+  // There is no such surface for z, which follows x. At 1.8 mm the fold depends on this position: see
+  // docs/swallowing.md.
   const double plane = 1e-3 * Pharynx::posterior_wall + (0.5 + shift) * spacing;
   const auto inside = [&](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
   Body body;
@@ -129,8 +130,8 @@ struct Body {
   return body;
 }
 
-/// The organs of fitted particles. The surface that they are fitted to cuts corners between organs, so that some lie in
-/// none: they are of that of the nearest particle.
+/// The organs of fitted particles. The surface to which they are fitted cuts corners between organs, so that some
+/// particles lie in no organ: they get that of the nearest particle.
 [[nodiscard]] inline std::vector<Organ> organs_of(const Anatomy& anatomy, const std::vector<Point>& points) {
   std::vector<Organ> drawn;
   for (const Point& x : points) drawn.push_back(anatomy.organ_at(1e3 * x));
@@ -148,7 +149,7 @@ struct Body {
   return organ;
 }
 
-/// The fitted particles, but for weakly supported ones.
+/// The fitted particles, except weakly supported ones.
 [[nodiscard]] inline Body fitted_body(const Anatomy& anatomy, const FittedOrgans& fitted, double spacing) {
   Body body;
   body.points = fitted.particles.positions;

@@ -18,10 +18,10 @@ namespace swallowing {
 
 namespace detail {
 
-/// mm along the body from a joint of two organs within which they do not touch.
+/// Distance in mm along the body from the joint of two organs, within which they have no contact.
 inline constexpr double attachment = 5.0;
 
-/// Particles of organs `a` and `b` no further than `attachment` along the body from where the two are joined.
+/// Marks the particles of organs `a` and `b` within `attachment` along the body of where the two are joined.
 [[nodiscard]] inline std::vector<char> near_joint(const Body& body, Organ a, Organ b) {
   const auto& points = body.points;
   const auto& organ = body.organ;
@@ -46,9 +46,9 @@ inline constexpr double attachment = 5.0;
   return near;
 }
 
-/// How far regions E and F move along the leaf in the first half second, in m, so that it ends where it is drawn: its
-/// end lies between two planes of the lattice, up to a spacing off, which decides how hard it rubs on the posterior
-/// wall.
+/// The displacement (m) of regions E and F along the leaf in the first half second, by which the leaf ends where it is
+/// drawn: its drawn end lies between two planes of the lattice, and an error of up to a spacing would decide how hard
+/// it rubs on the posterior wall.
 [[nodiscard]] inline Point leaf_placement(const Body& body, double spacing) {
   const double angle = Epiglottis::angle(0.8 * Epiglottis::length);
   const Point along(std::cos(angle), 0, std::sin(angle));
@@ -59,9 +59,9 @@ inline constexpr double attachment = 5.0;
   return -reach * along;
 }
 
-/// The outermost particles of the organs between which the epiglottis folds, as contact shall see them: at the drawn
-/// surface, from which those of a lattice that cuts it lie up to half a spacing off. Those a spacing off or more stay
-/// where they are: they belong to joints and ends.
+/// The surface correction for the outermost particles of the organs between which the epiglottis folds. It places them
+/// at the drawn surface, from which they lie up to half a spacing away if the surface cuts the lattice. Particles a
+/// spacing or more away remain in place: they belong to joints and ends.
 [[nodiscard]] inline hmps::SurfaceCorrection<double, 3> surface_correction(const Scene& scene, const Body& body,
                                                                            const Anatomy& anatomy) {
   const double l0 = scene.spacing;
@@ -77,7 +77,7 @@ inline constexpr double attachment = 5.0;
   return {hmps::vectors(scene.reference), skin, surface, l0};
 }
 
-/// Fills `scene.contacts` for the pairs in `touching`, but for those with region H.
+/// Fills `scene.contacts` for the pairs in `touching`, without the particles of region H.
 inline void declare_contacts(Scene& scene, const Body& body) {
   const auto& depth = body.depth;
   for (const OrganPair& pair : touching) {
@@ -93,10 +93,11 @@ inline void declare_contacts(Scene& scene, const Body& body) {
   }
 }
 
-/// Appends the plates of region H and their contact with the wall to `scene`. Nothing is bonded to them, so that they
-/// need no lattice: rows of particles a spacing apart follow the wall at one distance from its drawn inner surface,
-/// whatever the spacing. The wall's own particles lie up to half a spacing outside of it, in the plates at 2.4 mm: so
-/// these start clear of it, further out by as much, and reach their place in the first half second.
+/// Appends the plates of region H and their contact with the wall to `scene`. Nothing is bonded to them, so they need
+/// no lattice: rows of particles a spacing apart follow the wall at a distance from its drawn inner surface that does
+/// not depend on the spacing. The wall's own particles lie up to half a spacing outside the drawn wall, which at 2.4 mm
+/// is within the plates. Therefore the plates start half a spacing further out, clear of the wall, and reach their
+/// place in the first half second.
 inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constrictors& constrictors) {
   const double l0 = 1e3 * scene.spacing;
   // Two layers of particles carry all of a metaball wall.
@@ -111,7 +112,7 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
     scene.organ.push_back(Organ::constrictors);
     scene.region.push_back(static_cast<int>(region));
   };
-  constexpr double outwards = 57.5 * std::numbers::pi / 180;  // from the posterior axis, the middle of the plates' arc
+  constexpr double outwards = 57.5 * std::numbers::pi / 180;  // middle of the plates' arc, from the posterior axis
   int row = 0;
   for (double z = constrictors.bottom() + l0 / 2; z < constrictors.top(); z += l0, ++row) {
     const Point clear = l0 / 2 * Point(std::cos(outwards), std::sin(outwards), 0);
@@ -145,8 +146,8 @@ inline void add_constrictors(Scene& scene, const Anatomy& anatomy, const Constri
 
 }  // namespace detail
 
-/// Throws `hmps::InputError` if a control region of the scene has no particle: nothing of it would move, and the run
-/// would be one of another model.
+/// Throws `hmps::InputError` if a control region of the scene has no particles: it would prescribe nothing, and the run
+/// would be that of another model.
 inline void require_particles(const Scene& scene, Model model) {
   const auto particles = scene.particles_of_regions();
   for (std::size_t r = 0; r < particles.size(); ++r)
@@ -157,11 +158,11 @@ inline void require_particles(const Scene& scene, Model model) {
 }
 
 /// Builds the scene of a case. Throws `hmps::InputError` for a spacing at which the organs fall apart or a control
-/// region has no particle.
+/// region has no particles.
 [[nodiscard]] inline Scene make_scene(const SceneSettings& settings) {
   const double l0 = settings.spacing;
   examples::require(l0 >= 0.5e-3 && l0 <= 2.45e-3, "the spacing of the swallow is ", l0,
-                    " m; give 0.5e-3 to 2.4e-3, the sheets of 4.8 mm need two particles");
+                    " m; give 0.5e-3 to 2.4e-3, since the sheets of 4.8 mm need two particles");
   const Anatomy anatomy;
   const detail::Body body = settings.fitted ? detail::fitted_body(anatomy, *settings.fitted, l0)
                                             : detail::lattice_body(anatomy, l0, settings.lattice_shift);

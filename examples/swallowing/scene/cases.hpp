@@ -12,7 +12,7 @@ namespace swallowing {
 
 /// How the middle of the epiglottis moves (section 3.5 of the paper).
 enum class Model {
-  X,  ///< it is control region F, drawn by the hyoid bone
+  X,  ///< it is control region F, which the hyoid bone pulls
   Y   ///< it moves passively
 };
 
@@ -21,7 +21,7 @@ struct Case {
   std::string_view name;
   Model model;
   double friction;
-  std::optional<double> fold_time;  ///< s, the paper's Table 2; none where the epiglottis did not fold
+  std::optional<double> fold_time;  ///< s, the paper's Table 2; none if the epiglottis did not fold
 };
 inline constexpr std::array<Case, 4> cases{{{"X1", Model::X, 0.1, 1.65},
                                             {"X3", Model::X, 0.3, 1.70},

@@ -13,8 +13,8 @@ FittedOrgans fit_organs(double spacing, int threads) {
   const auto sign = [&anatomy](const Point& x) { return anatomy.organ_at(1e3 * x) == Organ::none ? 1.0 : -1.0; };
   // Cells as wide as the samples of the fit.
   const auto organs = hmps::redistanced(sign, bounds_of_organs(), spacing / 4, execute);
-  // Where drawn organs end side by side they leave fins, thinner than a millimetre, that reach further than the edges
-  // for which `fit_particles` is made: their volume goes to the nearest particles, whatever the spacing.
+  // Where drawn organs end side by side they leave fins thinner than a millimetre, which are longer than the edges that
+  // `fit_particles` expects. Their volume goes to the nearest particles, whatever the spacing.
   constexpr double longest_fin = 20e-3;  // m
   const hmps::FitSettings settings{.longest_edge = longest_fin / spacing};
   FittedOrgans fitted{hmps::fit_particles(organs, bounds_of_organs(), spacing, settings, execute), {}};

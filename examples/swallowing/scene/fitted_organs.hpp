@@ -8,7 +8,7 @@
 
 namespace swallowing {
 
-/// m, around all organs.
+/// A box (m) around all organs.
 [[nodiscard]] inline hmps::Box<double, 3> bounds_of_organs() {
   return {1e-3 * Point(-82, -34, -38), 1e-3 * Point(30, 34, 104)};
 }
@@ -16,11 +16,11 @@ namespace swallowing {
 /// Particles that are fitted to the common surface of the organs. All cases share them.
 struct FittedOrgans {
   hmps::FittedParticles<double, 3> particles;
-  std::vector<double> depth;  ///< of each below the surface, in layers
+  std::vector<double> depth;  ///< depth of each particle below the surface, in layers
 };
 
-/// Fits particles of a spacing in m. They do not depend on the number of threads. Throws `hmps::InputError` where the
-/// organs are too thin for the spacing.
+/// Fits particles of the given spacing (m). They do not depend on the number of threads. Throws `hmps::InputError` if
+/// the organs are too thin for the spacing.
 [[nodiscard]] FittedOrgans fit_organs(double spacing, int threads);
 
 }  // namespace swallowing

@@ -16,9 +16,9 @@ struct Materials {
   double density = 1000;              ///< kg/m3
   double kinematic_viscosity = 2e-3;  ///< m2/s, nu of \paper{21}
   double stabiliser_ratio = 1;        ///< E_hat over Young's modulus
-  /// Pressure per penetration in N/m3: k of \paper{22} times the spacing. It belongs to the scene, whatever the step
-  /// and the spacing. The paper's k~ = 0.3 (--penalty-ratio) is stiffer, the more so the smaller the step: contact
-  /// chatters.
+  /// Pressure per penetration in N/m3: k of \paper{22} times the spacing. It belongs to the scene and does not depend
+  /// on the step or the spacing. The paper's k~ = 0.3 (--penalty-ratio) is stiffer, the more so the smaller the step,
+  /// and makes contact chatter.
   double contact_stiffness = 2e8;
   double speed_limit = 20;  ///< m/s: half the speed of sound; nothing in a swallow is as fast
 

@@ -22,22 +22,22 @@
 /// The motion model of sections 3.2 to 3.6 of the paper, from the CSV files of a data folder.
 namespace swallowing {
 
-/// Where a control region is at a time (s). Metres.
+/// The pose (m) of a control region at a time (s).
 using RegionMotion = std::function<hmps::Pose<double, 3>(double)>;
 
 namespace detail {
-/// From 0 at s = 0 to 1 at s = 1, at rest at both.
+/// Rises from 0 at s = 0 to 1 at s = 1, with zero slope at both ends.
 [[nodiscard]] inline double smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 }  // namespace detail
 
-/// Region H over its height: rows of plates that turn inwards like doors, in one or two stages. Levels of
-/// constrictors.csv, linear between.
+/// Region H over its height: rows of plates that turn inwards like doors, in one or two stages. The levels are those of
+/// constrictors.csv, interpolated linearly.
 struct Constrictors {
-  /// z in mm; angle in degrees, start and duration in s, of the first stage, then of the second, which adds to it;
-  /// release and end in s; the share of the angle left at the end
+  /// z in mm; angle in degrees, start and duration in s of the first stage, then of the second, which adds to it;
+  /// release and end in s; the share of the angle left at the end.
   Rows<10> levels;
   [[nodiscard]] double bottom() const { return levels.rows.front()[0]; }
   [[nodiscard]] double top() const { return levels.rows.back()[0]; }
@@ -65,7 +65,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// Reads constrictors.csv, which shapes the plates, too.
+/// Reads constrictors.csv, which also determines the shape of the plates.
 [[nodiscard]] inline Constrictors read_constrictors(const std::filesystem::path& folder) {
   const auto table = hmps::read_csv((folder / "constrictors.csv").string());
   constexpr std::array columns{"z",     "angle",   "start",   "duration", "further",
@@ -83,14 +83,14 @@ namespace detail {
                       "before release, and release before end");
     rows.push_back(row);
   }
-  examples::require(rows.size() > 1, table.source, " needs two levels at least");
+  examples::require(rows.size() > 1, table.source, " needs at least two levels");
   return constrictors;
 }
 
 /// The prescribed motion of every control region.
 class Motion {
  public:
-  /// Reads the folder. Throws `hmps::InputError` with file and line where it is malformed.
+  /// Reads the folder. Throws `hmps::InputError`, with file and line, if it is malformed.
   explicit Motion(const std::filesystem::path& folder)
       : hyoid_(track(folder, "hyoid")), larynx_(track(folder, "larynx")), constrictors_(read_constrictors(folder)) {
     const auto follow = hmps::read_csv((folder / "regions.csv").string());
@@ -113,7 +113,7 @@ class Motion {
     }
   }
 
-  /// Where `region` is at time `t` (s).
+  /// The pose of `region` at time `t` (s).
   [[nodiscard]] hmps::Pose<double, 3> operator()(const Region& region, double t) const {
     using Vector = hmps::Vector<double, 3>;
     hmps::Pose<double, 3> pose;
@@ -151,7 +151,7 @@ class Motion {
  private:
   static constexpr double hinge_x = 12.8;  ///< mm, calibrated
   static constexpr double hinge_y = 4;     ///< mm
-  static constexpr double conform = 0.5;   ///< s, in which the body takes the shape the swallow starts from
+  static constexpr double conform = 0.5;   ///< s, in which the body takes the shape from which the swallow starts
 
   struct Moved {
     int id;

@@ -7,7 +7,7 @@
 
 namespace swallowing {
 
-/// What a particle belongs to.
+/// The organ to which a particle belongs.
 enum class Organ : std::int8_t {
   none = -1,
   tongue,
@@ -30,7 +30,7 @@ inline constexpr int organ_count = 10;
   return organ == Organ::none ? "none" : names[static_cast<std::size_t>(organ)];
 }
 
-/// Two organs whose surfaces may touch. All others never come near each other, or are one.
+/// Two organs whose surfaces may touch. All other pairs never come close to each other, or are one body.
 struct OrganPair {
   Organ first, second;
 };

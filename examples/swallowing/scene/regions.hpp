@@ -24,18 +24,18 @@ struct Region {
   int number = 0;
   double side = 0;                  ///< -1 or 1 for one of a pair, the sign of y
   double height = 0;                ///< mm
-  Point placement = Point::Zero();  ///< m, by which it moves in the first half second: E, F and H
+  Point placement = Point::Zero();  ///< m, its displacement in the first half second: E, F and H
 };
 
-/// Middle of the control regions of the tongue in degrees about its centre, and their half angle.
+/// Middle and half width of a control region of the tongue, as angles about its centre in degrees.
 struct TongueRegion {
   double angle, half;
 };
 inline constexpr std::array<TongueRegion, 8> tongue_regions{
     {{-54, 8}, {1, 13}, {50, 10}, {74, 4}, {90, 4}, {106, 4}, {122, 4}, {138, 4}}};
 
-/// mm of the tongue's side, from its rim inwards, that region A holds: one and a half of the coarsest spacing, so that
-/// a column of any lattice lies in it.
+/// Width in mm of the part of the tongue's side, from its rim inwards, that region A holds: one and a half times the
+/// coarsest spacing, so that a column of any lattice lies in it.
 inline constexpr double rim_width = 3.6;
 
 /// The control regions of the deforming body, in a fixed order; F, which model Y lacks, is the last.
@@ -54,7 +54,7 @@ inline constexpr double rim_width = 3.6;
   return regions;
 }
 
-/// The place in `body_regions` of the region that a particle of `organ` at `x` (mm) belongs to, -1 for none.
+/// The index in `body_regions` of the region to which a particle of `organ` at `x` (mm) belongs, -1 for none.
 [[nodiscard]] inline int region_at(const Anatomy& anatomy, Organ organ, const Point& x, Model model) {
   constexpr int fixed = 0, B = 1, A = 9, S1 = 10, S2 = 11, C = 12, D = 13, E = 15, G = 16, F = 17;
   const double y = std::abs(x[1]);

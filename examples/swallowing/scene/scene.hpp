@@ -27,19 +27,19 @@ namespace swallowing {
 
 struct SceneSettings {
   double spacing = 2.4e-3;   ///< l0 in m
-  double lattice_shift = 0;  ///< of the lattice along x and z, in spacings, from where `make_scene` puts it
+  double lattice_shift = 0;  ///< shift of the lattice along x and z from where `make_scene` puts it, in spacings
   Model model = Model::X;
   bool constrictors = true;              ///< with region H
   bool drawn_surfaces = true;            ///< contact sees the drawn surfaces; false: the lattice's own, as in the paper
-  std::filesystem::path data;            ///< folder of the motion, whose constrictors.csv shapes region H
-  const FittedOrgans* fitted = nullptr;  ///< the particles in place of those of the lattice
+  std::filesystem::path data;            ///< folder of the motion; its constrictors.csv shapes region H
+  const FittedOrgans* fitted = nullptr;  ///< the particles to use in place of those of the lattice
 };
 
-/// Two organs that may touch, as particles: each side is slave of the other (\paper{43}). Where the
-/// two are one body there is no contact: particles within `attachment` of the joint are left out.
+/// The particles of two organs that may touch: each organ is slave of the other (\paper{43}). Where the two are one
+/// body there is no contact: particles within `attachment` of the joint are left out.
 struct ContactPair {
   Organ first, second;
-  std::vector<hmps::Index> first_slaves, first_masters;  ///< surface particles; those and the layer below
+  std::vector<hmps::Index> first_slaves, first_masters;  ///< surface particles; surface particles and the layer below
   std::vector<hmps::Index> second_slaves, second_masters;
 };
 
@@ -57,19 +57,18 @@ struct Scene {
   std::size_t elastic_count = 0;
   std::vector<Organ> organ;  ///< of each particle
   std::vector<Region> regions;
-  std::vector<int> region;  ///< of each particle: place in `regions`, -1 if it is free
-  std::vector<int> layers;  ///< of fitted particles of the body: through the wall there, 0 in bulk; else empty
-  std::vector<double> layer_spacings;  ///< their distance in m
-  std::vector<std::array<hmps::Index, 2>>
-      cut;  ///< sorted pairs (i < j) nearer than the effective radius that air divides
+  std::vector<int> region;  ///< of each particle: index in `regions`, -1 if it is free
+  std::vector<int> layers;  ///< of fitted particles: number through the wall there, 0 in bulk; otherwise empty
+  std::vector<double> layer_spacings;           ///< distance of the layers in m
+  std::vector<std::array<hmps::Index, 2>> cut;  ///< sorted pairs (i < j) within the effective radius that air separates
   std::vector<ContactPair> contacts;
   std::vector<hmps::Index> base, centre,
-      tip;  ///< of the epiglottis in the midline: arcs at region E, region F, the end
+      tip;  ///< particles of the epiglottis in the midline, at region E, at region F, at the end
   std::optional<hmps::SurfaceCorrection<double, 3>>
-      skin;                 ///< where contact sees the organs' particles: at the drawn surface; nothing: where they are
+      skin;  ///< moves the organs' particles to the drawn surface for contact; nothing: they stay in place
   std::size_t removed = 0;  ///< weakly supported particles that were left out
 
-  /// Whether two particles of the body are bonded if they are near enough: not across an air gap.
+  /// Whether two particles of the body may be bonded if they are close enough: not across an air gap.
   [[nodiscard]] bool bonded(std::size_t i, std::size_t j) const {
     return !std::binary_search(cut.begin(), cut.end(), detail::ordered(i, j));
   }
@@ -84,7 +83,7 @@ struct Scene {
 
 namespace detail {
 
-/// The bonds of particles on one lattice as lists, for what the scene has to know about them.
+/// The neighbours of particles on one lattice, as far as building the scene needs them.
 class LatticeGraph {
  public:
   LatticeGraph(const std::vector<Point>& points, double spacing) : spacing_(spacing) {
@@ -122,8 +121,8 @@ class LatticeGraph {
   std::unordered_map<std::int64_t, std::size_t> index_;
 };
 
-/// Whether air lies between two points (mm): around the middle of their connection, as far as `reach` mm, there is no
-/// tissue. The reach keeps bonds along a hollow surface, whose middles leave the tissue by a few tenths.
+/// Whether air lies between two points (mm): there is no tissue within `reach` mm of their midpoint along each axis.
+/// The reach keeps bonds along a concave surface, whose midpoints lie a few tenths outside the tissue.
 [[nodiscard]] inline bool air_between(const Anatomy& anatomy, const Point& a, const Point& b) {
   constexpr double reach = 0.5;
   const Point middle = (a + b) / 2;

@@ -6,17 +6,17 @@
 
 namespace swallowing {
 
-/// Times k * interval that come one after the other; `due` is true once for each.
+/// The times k * interval in turn; `due` is true once for each.
 class Every {
  public:
   explicit Every(double interval) : interval_(interval) {}
-  /// At `time`, from which on steps of `step` are taken.
+  /// Whether the next of them is due at `time`, at which a step of `step` begins.
   [[nodiscard]] bool due(double time, double step) {
     if (time < static_cast<double>(next_) * interval_ - step / 2) return false;
     skip(time, step);
     return true;
   }
-  /// Leaves out all until `time`.
+  /// Skips all up to `time`.
   void skip(double time, double step) {
     next_ = static_cast<std::uint64_t>(std::floor((time + step / 2) / interval_)) + 1;
   }

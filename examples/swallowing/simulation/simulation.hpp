@@ -24,19 +24,18 @@
 
 namespace swallowing {
 
-/// The swallow in time: the components of the library, composed as section 2.1 of the paper has it.
-/// `S` is the scalar of velocities and forces; positions are kept in double, since a step moves a
-/// particle by less than a float resolves.
+/// The swallow in time: the components of the library, composed as in section 2.1 of the paper. `S` is the scalar type
+/// of velocities and forces; positions are kept in double, since a step moves a particle by less than a float resolves.
 template <class S>
 class Simulation {
  public:
   struct Settings {
     double friction = 0.1;
-    double time_step = 0;        ///< s; 0: follows the largest stable one
-    double step_share = 1;       ///< of the largest stable step, where the step follows it
+    double time_step = 0;        ///< s; 0: follows the largest stable step
+    double step_share = 1;       ///< of the largest stable step, if the step follows it
     double penalty = 0;          ///< k in N/m4; 0: from the ratio, or from the materials
-    double penalty_ratio = 0;    ///< k~ of \paper{25}; 0: not asked for
-    bool paper_contact = false;  ///< metaball and friction law as the paper has them
+    double penalty_ratio = 0;    ///< k~ of \paper{25}; 0: not given
+    bool paper_contact = false;  ///< metaball and friction law of the paper
     int threads = 1;
   };
 
@@ -70,12 +69,12 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One step of the paper's scheme, \paper{2, 3, 4}. Throws `StateError` where a wall loses a slave.
+  /// One step of the paper's scheme, \paper{2, 3, 4}. Throws `StateError` if a wall loses a slave.
   void step() {
     const auto x = positions();
     const auto v = velocities();
     tissue_->kick(body(x), body(v), time_step());
-    // What has a forced displacement moves by it, also as a wall, whatever forces act on it.
+    // Particles with a forced displacement follow it, also as walls, whatever forces act on them.
     clock_.advance();
     prescribe();
 
@@ -91,25 +90,27 @@ class Simulation {
   }
 
   [[nodiscard]] double time() const { return clock_.time(); }
-  /// s, of the steps that come.
+  /// The length (s) of the coming steps.
   [[nodiscard]] double time_step() const { return clock_.step(); }
   [[nodiscard]] double penalty() const { return penalty_; }
   /// The largest stable step of the body without contact, and the particle that limits it: at rest, or in the state of
   /// the latest refresh.
   [[nodiscard]] const hmps::StableStep& step_limit() const { return step_limit_; }
-  /// Takes the limit of the present state, from the mode found last. The gradients mean nothing until the next step.
+  /// Updates the limit to the present state, starting from the mode found last. The gradients are meaningless until the
+  /// next step.
   void refresh_step_limit() { step_limit_ = limit(step_limit_.mode); }
-  /// Lets the step follow the limit, unless it was given. To be called on a beat of the clock.
+  /// Adapts the step to the limit, unless the step was given. Call this on a beat of the clock.
   void follow_step_limit() {
     if (step_share_ > 0) clock_.change(chosen_step());
   }
-  /// The limit at rest in words: the particle that sets it, and which forces.
+  /// The limit at rest in words: the particle and the forces that set it.
   [[nodiscard]] const std::string& limited_by() const { return limited_by_; }
   [[nodiscard]] std::uint64_t steps() const { return clock_.steps(); }
   [[nodiscard]] double contact_seconds() const { return contact_seconds_; }
   [[nodiscard]] const hmps::ContactReport<S>& contact_report() const { return report_; }
 
-  /// Calls `visit` with an `hmps::Touch` for each touch of the latest step; its pair is a place in `Scene::contacts`.
+  /// Calls `visit` with an `hmps::Touch` for each touch of the latest step; its pair is an index into
+  /// `Scene::contacts`.
   template <class Visit>
   void for_each_touch(Visit&& visit) {
     with_contact([&](auto& contact) { contact.for_each_touch(visit); });
@@ -127,8 +128,8 @@ class Simulation {
   [[nodiscard]] const hmps::OpenMP& executor() const { return execute_; }
   [[nodiscard]] const Materials& materials() const { return materials_; }
 
-  /// The state that the next step starts from: with it, and the mode that limits the step, a run goes on to the same
-  /// bits.
+  /// The state from which the next step starts: with it and the mode that limits the step, a run continues identically
+  /// to the bit.
   [[nodiscard]] std::vector<Eigen::Vector3d>& position_array() { return x_; }
   [[nodiscard]] std::vector<S>& velocity_array() { return v_; }
   [[nodiscard]] const StepClock& clock() const { return clock_; }
@@ -151,7 +152,7 @@ class Simulation {
   void with_contact(Use&& use) {
     std::visit(use, contact_);
   }
-  /// Where contact sees the particles: at the drawn surfaces, or on the stairs of the lattice.
+  /// The positions that contact uses: at the drawn surfaces, or on the stairs of the lattice.
   [[nodiscard]] auto touching_places() {
     if (!scene_->skin) return positions();
     (*scene_->skin)(positions(), gradients(), hmps::vectors(places_), execute_);
@@ -174,7 +175,7 @@ class Simulation {
     return tissue_->stable_step(body(positions()), body(velocities()),
                                 {.spacing = scene_->spacing, .seed = steps() + 1, .start = start, .moves = moves});
   }
-  /// The share of the largest step that is stable with contact too, which adds k / rho to the square of a frequency.
+  /// The chosen share of the step that is stable with contact too, which adds k / rho to the square of a frequency.
   [[nodiscard]] double chosen_step() const {
     const double free = step_share_ * step_limit_.step;
     return StepClock::dividing(free / std::sqrt(1 + free * free * penalty_ / materials_.density));
@@ -190,12 +191,12 @@ class Simulation {
     return materials_.contact_stiffness / scene_->spacing;
   }
 
-  /// Gives the control regions the velocities that take them where they are at the end of the step.
+  /// Gives the control regions the velocities that take them to their places at the end of the step.
   void prescribe() {
     const auto one = [&](const auto& region, const auto& execute) {
       region.prescribe(positions(), velocities(), time(), time_step(), materials_.speed_limit, execute);
     };
-    // The particles of a large region are shared out among the threads; of small ones, such as plates, the regions.
+    // The threads share the particles of each large region, and the small regions, such as plates, as a whole.
     const auto large = [](const auto& region) { return region.particles().size() > 1000; };
     for (const auto& region : regions_)
       if (large(region)) one(region, execute_);

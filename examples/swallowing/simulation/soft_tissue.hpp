@@ -14,13 +14,13 @@
 
 namespace swallowing {
 
-/// What is stored in the deforming body, in J.
+/// The energies stored in the deforming body, in J.
 struct StoredEnergy {
   double strain, artificial;
 };
 
-/// The internal forces of the deforming body, whatever bonds and terms make them. `S` is the scalar of velocities and
-/// kernels; the views that a call takes are those of the body.
+/// The internal forces of the deforming body, whatever bonds and terms make them. `S` is the scalar type of velocities
+/// and forces; pass views of the body alone.
 template <class S>
 class SoftTissue {
  public:
@@ -30,9 +30,9 @@ class SoftTissue {
 
   virtual ~SoftTissue() = default;
 
-  /// Adds to the velocities what the forces do in `dt` (s), and writes F to where the tissue was told to.
+  /// Adds the effect of the forces over `dt` (s) to the velocities, and writes F to the view given at construction.
   virtual void kick(const Places& x, const Velocities& v, double dt) = 0;
-  /// From now on `kick` leaves out the particles that are not `free`.
+  /// From now on, `kick` omits the particles that are not `free`.
   virtual void restrict_to(const std::vector<char>& free) = 0;
   [[nodiscard]] virtual StoredEnergy stored_energy(const Places& x, const Gradients& F) const = 0;
   [[nodiscard]] virtual hmps::StableStep stable_step(const Places& x, const Velocities& v,
@@ -40,18 +40,18 @@ class SoftTissue {
   /// Which of the forces limit the step.
   [[nodiscard]] virtual std::vector<hmps::StepCause> causes(const hmps::StableStep& limit, const Places& x,
                                                             const Velocities& v) = 0;
-  /// How well a particle is held by its neighbours, see `hmps::relative_support`.
+  /// How well its bonds support a particle, see `hmps::relative_support`.
   [[nodiscard]] virtual double support(std::size_t particle) const = 0;
 };
 
-/// The tissue of a scene on the bonds of its lattice, with the paper's terms; of float and double.
+/// The tissue of a scene on the bonds of its lattice, with the paper's terms; defined for float and double.
 template <class S>
 [[nodiscard]] std::unique_ptr<SoftTissue<S>> make_lattice_tissue(const Scene& scene, const Materials& materials,
                                                                  const hmps::MatrixView<S, 3>& gradients,
                                                                  const hmps::OpenMP& execute);
 
-/// The tissue of a scene on a list of bonds of its fitted particles, with the choices for thin walls; of float and
-/// double.
+/// The tissue of a scene on a list of bonds of its fitted particles, with the choices for thin walls; defined for float
+/// and double.
 template <class S>
 [[nodiscard]] std::unique_ptr<SoftTissue<S>> make_fitted_tissue(const Scene& scene, const Materials& materials,
                                                                 const hmps::MatrixView<S, 3>& gradients,

@@ -9,7 +9,7 @@ namespace swallowing {
 /// Counts steps and time while the step changes now and then.
 class StepClock {
  public:
-  /// The steps that go into this time exactly (s), so that samples and pictures fall on steps.
+  /// Time (s) that is a whole number of steps, so that samples and pictures fall on steps.
   static constexpr double beat = 1e-3;
 
   StepClock() = default;
@@ -23,7 +23,7 @@ class StepClock {
   [[nodiscard]] double time() const { return origin_ + static_cast<double>(steps_ - steps_at_origin_) * step_; }
 
   void advance() { ++steps_; }
-  /// From now on steps of `step`. To be called on a beat, which the time becomes exactly.
+  /// From now on, takes steps of `step`. Call this on a beat; the time is rounded to it.
   void change(double step) {
     origin_ = std::round(time() / beat) * beat;
     steps_at_origin_ = steps_;

@@ -27,7 +27,7 @@
 
 namespace swallowing {
 
-/// What the forces read of each particle of the body.
+/// The parameters of each particle of the body that the forces read.
 template <class S>
 struct TissueParameters {
   std::vector<S> young, artificial;        ///< Pa: Young's modulus and E_hat
@@ -40,7 +40,7 @@ struct TissueParameters {
   }
 
  private:
-  /// E_hat and the share of the bulk modulus that the law keeps, of each material by its own walls.
+  /// Chooses E_hat and the share of the bulk modulus that the law keeps, for each material by its own walls.
   void choose_for_walls(const Scene& scene, const Materials& materials) {
     const std::size_t n = scene.elastic_count;
     artificial.resize(n), law_d1.resize(n), mean_dilatation.resize(n);

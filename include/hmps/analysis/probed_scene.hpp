@@ -19,7 +19,7 @@
 namespace hmps::inline HMPS_ABI {
 
 /// A force that `stable_step` and `relax` can evaluate. `force(x, v, f)` takes read-only views of positions (m) and
-/// velocities (m/s) and writes force densities (N/m3) to `f`; since `f` is zero on entry, it may also add to it alone.
+/// velocities (m/s) and writes force densities (N/m3) to `f`; since `f` is zero on entry, it may just add to it.
 /// Models: the result of `internal_force`, a lambda that adds several forces.
 template <class Force, class T, int D>
 concept ProbedForce = requires(Force& force, const VectorView<const T, D>& x, const VectorView<T, D>& f) {
@@ -48,7 +48,7 @@ struct Direction {
         damping(n, Vector<double, D>::Zero()) {}
 };
 
-/// The linearised force, with the vector algebra for the search of its largest eigenvalue.
+/// The linearised force, with the vector algebra that the search for its largest eigenvalue needs.
 template <class Force, class T, int D, class Rho, class E>
 class ProbedScene {
  public:
@@ -77,7 +77,7 @@ class ProbedScene {
     require(length >= 8 * static_cast<double>(std::numeric_limits<T>::epsilon()) * farthest,
             "hmps: the trial displacements of stable_step are ", length, " m, which vanishes in the rounding of ",
             8 * sizeof(T), "-bit positions of up to ", farthest,
-            " m; give the spacing in metres, a larger perturbation, or positions in double nearer to the origin");
+            " m; give the spacing in metres, a larger perturbation, or positions in double closer to the origin");
   }
 
   [[nodiscard]] bool damped() const { return damped_; }
@@ -94,7 +94,7 @@ class ProbedScene {
     if (damped_)
       difference(direction.y, v_, speed_, direction.damping, [&](const auto& trial, auto& f) { call(x_, trial, f); });
   }
-  /// Skips the velocities from now on if the force did not respond to the first ones.
+  /// From now on, skips the velocities if the force did not respond to those of `direction`.
   void forget_damping_if_none(const Direction<D>& direction) {
     damped_ = dot(direction.damping, direction.damping) > 0;
   }
@@ -149,8 +149,7 @@ class ProbedScene {
     for (std::size_t i = 0; i < size_; ++i)
       if (!detail::is_finite(image[i].squaredNorm()))
         throw StateError(message("hmps: stable_step finds a force on particle ", i, " that is not finite, ",
-                                 plus_[i].transpose(),
-                                 " N/m3; look at its det F, and at x, v and the parameters of its law"));
+                                 plus_[i].transpose(), " N/m3; check its det F, x, v and the parameters of its law"));
   }
 
   [[nodiscard]] double root_density(std::size_t i) const {

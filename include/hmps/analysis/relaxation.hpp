@@ -19,30 +19,29 @@ namespace hmps::inline HMPS_ABI {
 /// Finds the static equilibrium of a body under the composed `force`, by dynamic relaxation with kinetic damping.
 ///
 /// The particles start at rest and follow symplectic Euler (\paper{2, 4}). When their kinetic energy passes a peak,
-/// that is when the power of the forces f . v turns negative, the particles return to the peak, found by linear
+/// that is, when the power of the forces f . v turns negative, the particles return to the peak, found by linear
 /// interpolation of the power within the last step, and stop. For a linear body this is the minimum of the potential
-/// energy along the step, so that stopping never increases the energy. Without the return, a mode with four steps per
-/// period would oscillate forever. The first kick after a stop takes half a step, which centres the velocities between
-/// the positions. The search ends when the body is at rest and the unbalanced forces are below `tolerance` times the
-/// load.
+/// energy along the step, so stopping never increases the energy. Without the return, a mode with four steps per period
+/// would oscillate forever. The first kick after a stop takes half a step, which centres the velocities between the
+/// positions. The search ends when the body is at rest and the unbalanced forces are below `tolerance` times the load.
 ///
 ///     const auto found = relax(force, x, v, f, rho, {.spacing = l0, .load = weight, .moves = moves});
 ///
-/// The equilibrium depends on neither time nor mass: `rho` may be the density of the material or any other. A density
-/// per particle that is proportional to the local stiffness needs fewer iterations if stiff and soft parts are
+/// The equilibrium depends on neither time nor mass: `rho` may be the density of the material or any other density. A
+/// density per particle that is proportional to the local stiffness needs fewer iterations if stiff and soft parts are
 /// combined. Leave viscosity out: it slows the search and does not change the result. With friction the result depends
-/// on the path. If a load overshoots too far, apply it in increments and call `relax` for each. A start close to the
+/// on the path. If a load overshoots too far, apply it in increments and call `relax` for each. Starting close to the
 /// result saves most.
 ///
 /// @param force  `force(x, v, f)` writes force densities (N/m3), as for `stable_step`: the result of
 ///               `internal_force`, or a lambda that adds several forces and the load
 /// @param x      positions in m, changed; those of particles that do not move are kept
 /// @param v      velocities in m/s, zero at the end
-/// @param f      force densities; at the end those at rest, which are the reactions of particles that do not move
+/// @param f      force densities; at the end those at rest, which for particles that do not move are the reactions
 /// @param rho    density in kg/m3, a number or a `ScalarView`
 /// The result does not depend on the executor if the force does not. Positions in float may be too coarse for a small
 /// tolerance; keep them in double. Throws `InputError` for bad settings, a spacing far from that of the particles,
-/// views of different sizes, values that are not finite and a force that never writes anything. Throws `StateError` if
+/// views of different sizes, values that are not finite, and a force that never writes anything. Throws `StateError` if
 /// a force is not finite, if nothing holds the body so that it flies away, and after `max_iterations`; the state is
 /// then the last one reached.
 template <class Force, class X, class V, class F, int D, PerParticle Rho, Executor E = Serial>
@@ -61,7 +60,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   detail::RelaxationStep step(settings);
   body.stop();
   double before = 0;  // power of the forces at the start of the last drift
-  double flown = 0;   // by the fastest particles since the last stop, in m
+  double flown = 0;   // distance travelled by the fastest particles since the last stop, in m
   const double furthest = 10 * (body.extent() + settings.spacing);
   for (bool at_rest = true;; ++result.iterations) {
     body.clear_forces();
@@ -84,7 +83,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
     const bool balanced = result.residual <= settings.tolerance;
     if (balanced && at_rest) break;
     if (balanced || sums.power < 0) {
-      // A balance in motion does not count unless it lasts at rest: the force may depend on the velocities.
+      // A balance in motion counts only if it persists at rest: the force may depend on the velocities.
       if (!balanced) body.go_back(step.value() * sums.power / (sums.power - before));
       body.stop();
       at_rest = true;

@@ -37,8 +37,8 @@ struct Relaxation {
 struct RelaxationSettings {
   double spacing = 0;       ///< particle spacing l0 in m, positive
   double tolerance = 1e-3;  ///< residual at which the search ends; see `Relaxation::residual`
-  /// The load in N (in two dimensions N/m) that the unbalanced forces are compared with, such as the weight of the body
-  /// or the force that presses it. 0: the force on the particles that do not move; there must be some.
+  /// The load in N (in two dimensions N/m) with which the unbalanced forces are compared, such as the weight of the
+  /// body or the force that presses it. 0: the force on the particles that do not move, of which there must be some.
   double load = 0;
   int max_iterations = 100000;  ///< one force evaluation each
   double step = 0;              ///< in s; 0: that of `stable_step`, updated as the body deforms
@@ -53,11 +53,11 @@ namespace detail {
 
 inline void validate(const RelaxationSettings& s) {
   require(detail::is_finite(s.spacing) && s.spacing > 0, "hmps: the spacing of relax is ", s.spacing,
-          " m; give the particle spacing l0, by which force densities become forces");
+          " m; give the particle spacing l0, with which force densities become forces");
   require(detail::is_finite(s.tolerance) && s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of relax is ",
           s.tolerance, "; it must lie between 0 and 1, for example 1e-3");
   require(detail::is_finite(s.load) && s.load >= 0, "hmps: the load of relax is ", s.load,
-          " N; give the force that acts, or 0 for what the particles carry that do not move");
+          " N; give the force that acts, or 0 for the force on the particles that do not move");
   require(s.max_iterations > 0, "hmps: relax may make ", s.max_iterations, " iterations; allow at least one");
   require(detail::is_finite(s.step) && s.step >= 0, "hmps: the step of relax is ", s.step,
           " s; it must be positive, or 0 for that of stable_step");
@@ -66,8 +66,8 @@ inline void validate(const RelaxationSettings& s) {
 /// Sums over all particles at one time.
 struct Unbalanced {
   double moving = 0;   ///< sum of |f| over the particles that move
-  double held = 0;     ///< of the others
-  double power = 0;    ///< of all forces on the velocities
+  double held = 0;     ///< the same over the others
+  double power = 0;    ///< of the forces, sum of f . v
   double gain = 0;     ///< rate at which a kick increases the power
   double fastest = 0;  ///< largest speed
 
@@ -116,8 +116,8 @@ class RelaxationStep {
   int evaluations_ = 0;
 };
 
-/// Throws `InputError` if `force` writes nothing to `f` even at positions around `x`, by a thousandth of a `spacing`
-/// (m) off: then it does not look at them.
+/// Throws `InputError` if `force` writes nothing to `f` even when all particles are displaced from `x` by about a
+/// thousandth of `spacing` (m): then it does not read the positions that it is given.
 template <class Force, class X, class V, class F, int D>
 void require_response(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                       double spacing) {
@@ -131,17 +131,17 @@ void require_response(Force& force, const VectorView<X, D>& x, const VectorView<
   for (std::size_t i = 0; i < f.size(); ++i)
     for (int c = 0; c < D; ++c) written = written || f(i, c) != F(0);
   require(written,
-          "hmps: the force of relax writes nothing, not even when all particles are displaced: a lambda must hand on "
+          "hmps: the force of relax writes nothing, not even when all particles are displaced: a lambda must pass on "
           "the views that relax calls it with, not views of its own");
 }
 
-/// Throws `InputError` for views of different sizes or in one place, and for values that are not finite.
+/// Throws `InputError` for views of different sizes or of the same memory, and for values that are not finite.
 template <class X, class V, class F, int D, class Rho>
 void require_relaxable(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
                        const RelaxationSettings& settings) {
   const std::size_t n = x.size();
   validate(settings);
-  require(n > 0, "hmps: relax was given no particle");
+  require(n > 0, "hmps: relax was given no particles");
   require_size(v, n, "velocities");
   require_size(f, n, "force densities");
   require_apart(x, "positions", v, "velocities");
@@ -160,15 +160,15 @@ template <class F, int D>
   throw StateError(message("hmps: iteration ", iteration, " of relax finds a force on particle ", i,
                            " that is not finite, ", f[i].transpose(),
                            iteration == 0
-                               ? " N/m3; are the positions those of the body, and come before the velocities?"
+                               ? " N/m3; are the positions those of the body, and do they come before the velocities?"
                                : " N/m3; apply the load in parts, each relaxed before the next, or give a smaller "
-                                 "step; if det F reached zero, take the law as Continued{law}"));
+                                 "step; if det F reached zero, use the law as Continued{law}"));
 }
 
 [[noreturn]] inline void throw_flown(const Relaxation& result, double path) {
   throw StateError(message("hmps: after ", result.iterations, " iterations of relax, particles have flown ", path,
-                           " m without a halt, ten times the size of the body: nothing holds it; does `moves` leave "
-                           "out the particles that are held, and does the load press it against something?"));
+                           " m without stopping, ten times the size of the body: nothing holds it; does `moves` "
+                           "exclude the particles that are held, and does the load press it against something?"));
 }
 
 [[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings) {
@@ -187,10 +187,10 @@ class RelaxingBody {
       : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
     for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = !settings.moves || settings.moves(i);
     const auto count = static_cast<std::size_t>(std::count(follows_.begin(), follows_.end(), char(1)));
-    require(count > 0, "hmps: no particle of relax moves; `moves` must hold for some");
+    require(count > 0, "hmps: no particle of relax moves; `moves` must be true for some");
     require(settings.load > 0 || count < follows_.size(),
-            "hmps: every particle of relax moves and no load is given; give the load in N that unbalanced forces are "
-            "compared with");
+            "hmps: every particle of relax moves and no load is given; give the load in N with which unbalanced "
+            "forces are compared");
   }
 
   /// Volume of a particle in m^D.

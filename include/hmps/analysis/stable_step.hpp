@@ -18,7 +18,7 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Estimates the largest stable step of symplectic Euler (\paper{2, 3, 4}) for the composed `force` in the state `x`,
-/// `v`. Evaluates the force only; assembles no matrix.
+/// `v`. Only evaluates the force; assembles no matrix.
 ///
 /// Let the force respond to a displacement u with the acceleration -K u and to a velocity w with -C w. The scheme, with
 /// the force at the old velocity, is stable while the largest eigenvalue of dt^2 K + 2 dt C is below 4: dt < 2 / omega
@@ -31,25 +31,25 @@ namespace hmps::inline HMPS_ABI {
 /// The quotient approaches the eigenvalue from below, so `limit` approaches the true limit from above. `step` is
 /// therefore smaller than `limit`: by the residual, within which an eigenvalue is certain to lie, and by `margin`. A
 /// small residual may still belong to a smaller eigenvalue while the mode of a single weakly supported particle has not
-/// yet emerged from the noise. The search therefore makes at least about 25 iterations, after which all but one noise
-/// in a thousand have found every eigenvalue that matters for the margin. A margin of 0 omits this.
+/// yet emerged from the noise. The search therefore makes at least about 25 iterations, after which all but one in a
+/// thousand starts have found every eigenvalue that matters for the margin. A margin of 0 omits this minimum.
 ///
 /// To refresh the result during a run, pass its `mode` as `start`, and a different `seed`. The search then starts from
 /// that mode with a tenth of noise and may stop after `refresh_iterations`. It follows a limiting mode that changes,
-/// but may take several refreshes to notice a mode that appears elsewhere. A search without `start` now and then is the
-/// safe way.
+/// but may take several refreshes to notice a mode that appears elsewhere. To be safe, search without `start` now and
+/// then.
 ///
-/// The result holds for the given state; stretch and new contacts change it. A contact that is not touched does not
-/// count. One whose penetration is smaller than the trial displacement counts by about half: set `perturbation` well
-/// below the penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of
+/// The result holds for the given state; stretch and new contacts change it. A contact without penetration does not
+/// count. One whose penetration is smaller than the trial displacement counts about half: set `perturbation` well below
+/// the penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of
 /// docs/measured/stability.md the limit nevertheless agreed with that of the true, unsymmetric motion within half a per
 /// cent.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
-/// bad settings or views, for a spacing in another unit than the positions, for trial displacements that vanish in the
-/// rounding of the positions, and if `start` or a set of particles in `moves` has a different number of particles;
-/// `StateError` if the force of a particle is not finite.
+/// bad settings or views, for a spacing that is not in the unit of the positions, for trial displacements that vanish
+/// in the rounding of the positions, and if `start` or a set of particles in `moves` is for a different number of
+/// particles; `StateError` if the force of a particle is not finite.
 template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Serial>
 [[nodiscard]] StableStep stable_step(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
                                      const Rho& density, const StableStepSettings& settings, const E& execute = {}) {
@@ -58,7 +58,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
                 "hmps: stable_step calls force(x, v, f) with VectorView<const T, D>, VectorView<const T, D> and "
                 "VectorView<T, D> of the scalar of the positions");
   detail::validate(settings);
-  detail::require(x.size() > 0, "hmps: stable_step was given no particle");
+  detail::require(x.size() > 0, "hmps: stable_step was given no particles");
   require_size(v, x.size(), "velocities");
   require_positive(density, x.size(), "density", "kg/m3");
   detail::require_scene(settings.moves, x.size(), "that move in stable_step");

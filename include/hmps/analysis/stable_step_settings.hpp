@@ -23,7 +23,7 @@ struct StableStepSettings {
   double tolerance = 0.02;   ///< residual of the eigenvector, relative to the eigenvalue, at which the search stops
   int max_iterations = 300;  ///< one or two pairs of force evaluations each
   double perturbation = 0;   ///< trial displacement over the spacing; 0: 1e-2 for float, 1e-5 for double
-  std::uint64_t seed = 1;    ///< seed of the noise that the search starts from
+  std::uint64_t seed = 1;    ///< seed of the noise from which the search starts
   /// The `mode` of an earlier result for the same particles, to start from instead of noise; see `stable_step`.
   std::span<const double> start = {};
   int refresh_iterations = 4;  ///< minimum number of iterations with a `start`
@@ -68,7 +68,7 @@ inline void validate(const StableStepSettings& s) {
           "hmps: the perturbation of stable_step is ", s.perturbation, " spacings; it must lie in [0, 0.1)");
 }
 
-/// By how much the spacing of deformed particles may differ from l0: more is another unit.
+/// Factor by which the spacing of deformed particles may differ from l0; more means another unit.
 inline constexpr double most_compressed = 100;
 
 /// Length in m of the trial displacements for positions of type `T`.

@@ -35,7 +35,7 @@ NamedForce(const char*, Force&) -> NamedForce<Force>;
 /// Contribution of one part of the force to the limiting mode.
 struct StepCause {
   std::string name;
-  double stiffness = 0;  ///< k in 1/s2; omega^2 of the mode is the sum over all parts
+  double stiffness = 0;  ///< k in 1/s2; the sum over all parts is omega^2 of the mode
   double damping = 0;    ///< c in 1/s
   double share = 0;      ///< fraction of dt^2 k + 2 dt c = 4 at the limit
 };
@@ -46,7 +46,7 @@ struct StepCause {
 /// elastic(law))`; the shares then add up to 1. A part with a negative share softens the mode. Takes two force
 /// evaluations per part, and two more if the part depends on velocities.
 ///
-/// The other arguments are those of `stable_step`. Throws as it does.
+/// The other arguments are those of `stable_step`. Throws as that does.
 template <class X, class V, int D, PerParticle Rho, class... Forces>
 [[nodiscard]] std::vector<StepCause> step_causes(const StableStep& found, const VectorView<X, D>& x,
                                                  const VectorView<V, D>& v, const Rho& density,
@@ -55,13 +55,13 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   using T = typename VectorView<X, D>::Scalar;
   const std::size_t n = x.size();
   detail::validate(settings);
-  detail::require(found.mode.size() == n * D, "hmps: the mode whose causes are asked for has ", found.mode.size(),
+  detail::require(found.mode.size() == n * D, "hmps: the mode that step_causes was given has ", found.mode.size(),
                   " numbers, but ", n, " particles in ", D, " dimensions need ", n * D,
                   "; give the result of stable_step for the same particles");
   double squares = 0;
   for (const double amplitude : found.mode) squares += amplitude * amplitude;
   detail::require(detail::is_finite(squares) && squares > 0,
-                  "hmps: the mode whose causes are asked for has the length ", std::sqrt(squares),
+                  "hmps: the mode that step_causes was given has the length ", std::sqrt(squares),
                   "; give the result of stable_step");
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
@@ -86,13 +86,13 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   return causes;
 }
 
-/// How well the bonds of `particle` support it: the smallest eigenvalue of its A (\paper{12}) divided by that of a full
+/// How well its bonds support `particle`: the least eigenvalue of its A (\paper{12}) divided by that of a full
 /// neighbourhood. 1 inside, 0.5 at a flat surface of a lattice, 0.28 at the corner of a cube, 0 without bonds. The
-/// stiffness of a particle grows as this falls.
+/// stiffness of a particle grows as its support falls.
 template <class K, int D>
 [[nodiscard]] double relative_support(const Blocks<K, D>& bonds, std::size_t particle) {
   detail::require(particle < bonds.size(), "hmps: the support of particle ", particle,
-                  " is asked for, but there are only ", bonds.size(), " particles");
+                  " was requested, but there are only ", bonds.size(), " particles");
   const Matrix<double, D> inverse = bonds.shape_inverse(particle).template cast<double>();
   const Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver(inverse, Eigen::EigenvaluesOnly);
   const double full = bonds.standard_lambda() * bonds.standard_density() / D;

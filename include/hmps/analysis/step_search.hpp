@@ -20,7 +20,7 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// The number of iterations after which a Krylov method started from noise in `dimension` dimensions has found the
-/// largest eigenvalue to within `margin` of its square root, except for one start in a thousand. From the bound of
+/// square root of the largest eigenvalue to within `margin`, except for one start in a thousand. From the bound of
 /// Kuczynski and Wozniakowski (1992), P <= 1.648 sqrt(n) exp(-sqrt(e) (2 m - 1)).
 [[nodiscard]] inline int least_iterations(std::size_t dimension, double margin) {
   const double error = 1 - (1 - margin) * (1 - margin);
@@ -28,7 +28,7 @@ namespace hmps::inline HMPS_ABI::detail {
   return error > 0 ? static_cast<int>(std::min(std::ceil((exponent / std::sqrt(error) + 1) / 2), 1e6)) : 1;
 }
 
-/// Amount of noise in a search that starts from an earlier mode, from which a new mode can grow.
+/// Amount of noise in a search that starts from an earlier mode; a new mode can grow from the noise.
 inline constexpr double fresh_noise = 0.1;
 
 /// The step at which dt^2 k + 2 dt c reaches 4; infinite if it never does.
@@ -62,13 +62,13 @@ class StepSearch {
         previous_(n_) {
     start_from_noise();
     if (!settings.start.empty()) start_from_mode();
-    require(scene_.normalise(best_, 1.0), "hmps: no particle of stable_step moves; `moves` must hold for some");
+    require(scene_.normalise(best_, 1.0), "hmps: no particle of stable_step moves; `moves` must be true for some");
     probe(best_);
     scene_.forget_damping_if_none(best_);
   }
 
   [[nodiscard]] StableStep run() {
-    constexpr double exact = 1e-7;  // below this the residual is rounding: nothing can grow out of it
+    constexpr double exact = 1e-7;  // below this the residual is rounding, from which nothing can grow
     const int cold = least_iterations(n_ * D, settings_.margin);
     const int least = settings_.start.empty() ? cold : std::min(cold, settings_.refresh_iterations);
     StableStep result;
@@ -83,7 +83,7 @@ class StepSearch {
         break;
       }
       scene_.scale_speed(dt);
-      // B = dt^2 K + 2 dt C has the quotient 4 at `best_`, whose residual is the direction of ascent.
+      // B = dt^2 K + 2 dt C has the quotient 4 at `best_`; the residual is the direction of ascent.
       execute_(n_, [&](std::size_t i) {
         const Vector<double, D> image = dt * dt * best_.stiffness[i] + 2 * dt * best_.damping[i];
         descent_.y[i] = image - 4.0 * best_.y[i];
@@ -95,7 +95,7 @@ class StepSearch {
       if (settled || result.iterations >= settings_.max_iterations) {
         result.converged = settled;
         if (fresh_ || !result.converged) break;
-        // The images were combined linearly for some iterations: evaluate them before the final answer.
+        // The images were combined linearly for some iterations: evaluate them anew before the final answer.
         probe(best_);
         fresh_ = true;
         continue;
@@ -117,7 +117,7 @@ class StepSearch {
       if (!moves(i)) best_.y[i].setZero();
     }
   }
-  /// Starts from the mode in the settings with a tenth of noise.
+  /// Starts from the mode in the settings, with a tenth of noise.
   void start_from_mode() {
     require(settings_.start.size() == n_ * D, "hmps: the mode that stable_step starts from has ",
             settings_.start.size(), " numbers, but ", n_, " particles in ", D, " dimensions need ", n_ * D,
@@ -156,7 +156,7 @@ class StepSearch {
     fresh_ = false;
     return scene_.normalise(best_, 1.0);
   }
-  /// dt^2 K + 2 dt C projected on the three directions (Rayleigh-Ritz), symmetrised.
+  /// dt^2 K + 2 dt C projected onto the three directions (Rayleigh-Ritz), symmetrised.
   [[nodiscard]] Matrix<double, 3> projected(double dt) const {
     const std::array<const Direction<D>*, 3> basis{&best_, &descent_, &previous_};
     const int dimension = have_previous_ ? 3 : 2;

@@ -40,7 +40,7 @@ class BondList : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = detail::SlotArrays<K, N>;  ///< storage for what bonds read of neighbours
+  using Slots = detail::SlotArrays<K, N>;  ///< storage for the numbers that bonds read from neighbours
 
   /// Bonds all pairs of `reference` (m) within the effective radius for which `bonded(i, j)` holds; the predicate must
   /// be symmetric. Throws `InputError` for coincident particles, positions that are not finite, neighbourhoods that do
@@ -53,12 +53,12 @@ class BondList : public Blocks<K, D> {
     find_bonds(reference, settings, bonded, weight);
   }
 
-  /// The same for particles of unlike `volumes` (m3; in 2D m2), such as those of `fit_particles`. The weight of a bond
-  /// of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material. Forces stay per volume;
-  /// times the volume of each particle they sum to zero, and those of terms with an energy are the gradient of the
-  /// energy of those volumes. Energies and momenta must be given the same volumes. Costs nothing in a sweep. Throws
-  /// `InputError` also for a volume that is not positive, and volumes of a mean that differs from l0^D by more than a
-  /// factor of 8, as in another unit.
+  /// The same for particles of different `volumes` (m3; in 2D m2), such as those of `fit_particles`. The weight of a
+  /// bond of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material. Forces remain
+  /// densities; multiplied by the volume of each particle they sum to zero, and those of terms with an energy derive
+  /// from the energy with these volumes. Pass the same volumes to energies and momenta. This costs nothing in a sweep.
+  /// Also throws `InputError` for a volume that is not positive, and for volumes whose mean differs from l0^D by more
+  /// than a factor of 8, as it does in another unit.
   template <class T, class V, class Bonded = EveryBond, class Weight = PaperWeight>
   BondList(const VectorView<T, D>& reference, const BondSettings& settings, const ScalarView<V>& volumes,
            Bonded&& bonded = {}, Weight&& weight = {})
@@ -111,7 +111,7 @@ class BondList : public Blocks<K, D> {
 
   [[nodiscard]] std::size_t bytes() const { return Base::bytes() + places_.bytes() + shares_.bytes() + runs_.bytes(); }
 
-  /// The slot from which on the last of the rows of `block` without a split reads.
+  /// The first slot that the last unsplit row of `block` reads.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
     const auto& group = runs_.groups[block];
     if (group.split == group.row) return block * width;
@@ -230,7 +230,7 @@ class BondList : public Blocks<K, D> {
       runs_.add(halves);
     }
     detail::require_standard_weight(fullest.weight);
-    // Where no particle has a bond nothing is summed, whatever the scale.
+    // If no particle has a bond, nothing is summed and any scale will do.
     if (this->size() > 0)
       this->keep_standard(fullest.weight > 0 ? fullest.weight : 1,
                           fullest.weight > 0 ? fullest.A.trace() / fullest.weight : 1);
@@ -249,7 +249,7 @@ class BondList : public Blocks<K, D> {
     return static_cast<std::int32_t>(neighbour) - static_cast<std::int32_t>(lane);
   }
 
-  /// Prefetch distance of weights in rows; without it, the sweeps wait for them.
+  /// Prefetch distance of the weights in rows; without prefetching, the sweeps wait for them.
   static constexpr std::size_t ahead = 12;
   detail::VolumeShares<K> shares_;
   detail::Places<K, D> places_;

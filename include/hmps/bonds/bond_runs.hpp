@@ -13,8 +13,8 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// The rows of bonds of a `BondList`: for each block whole rows first, which read one run of slots, then split ones,
-/// which read a run for each half of the lanes.
+/// The rows of bonds of a `BondList`: for each block, first the whole rows, which read one run of slots, then the split
+/// rows, which read one run for each half of the lanes.
 template <class K>
 class BondRuns {
   static constexpr std::size_t half_width = Lanes<K>::width / 2;
@@ -31,15 +31,15 @@ class BondRuns {
     std::uint32_t row = 0, split = 0, start = 0;
   };
 
-  std::vector<Lanes<K>> weights;     ///< Of each row.
-  std::vector<std::int32_t> starts;  ///< From which slot on the runs of a row read, one or, if it is split, two.
-  std::vector<Group> groups;         ///< Of each block, and one behind the last.
+  std::vector<Lanes<K>> weights;     ///< One entry per row.
+  std::vector<std::int32_t> starts;  ///< First slot of each run of a row: one per row, two if it is split.
+  std::vector<Group> groups;         ///< One per block, and one past the last.
 
   void reserve(std::size_t blocks) {
     groups.reserve(blocks + 1);
     groups.push_back({});
   }
-  /// Appends `rows` empty rows, so that they may be prefetched, and gives back what is not needed.
+  /// Appends `rows` empty rows, so that a sweep may prefetch beyond the last one, and releases unused memory.
   void pad(std::size_t rows) {
     weights.resize(weights.size() + rows, Lanes<K>(K(0)));
     weights.shrink_to_fit();
@@ -49,8 +49,8 @@ class BondRuns {
     return weights.size() * sizeof(Lanes<K>) + starts.size() * sizeof(std::int32_t) + groups.size() * sizeof(Group);
   }
 
-  /// Adds the rows of the next block from the bonds of both halves of its lanes: one row for each run that both halves
-  /// have, then one for each pair of runs that only one half has.
+  /// Adds the rows of the next block from the bonds of both halves of its lanes: first a whole row for each run that
+  /// both halves share, then a split row for each pair of runs that only one half has.
   void add(std::array<std::vector<Bond>, 2>& halves) {
     std::array<std::vector<std::size_t>, 2> alone;  // where in `halves` a run begins
     const auto run = [&](std::size_t h, std::size_t k) {

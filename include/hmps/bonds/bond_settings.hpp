@@ -20,14 +20,14 @@ struct EveryBond {
 
 /// Settings of the bonds of a cloud.
 struct BondSettings {
-  double spacing = 0;                        ///< Initial particle spacing l0 in m, positive.
+  double spacing = 0;                        ///< Particle spacing l0 in m, positive.
   double radius_ratio = paper_radius_ratio;  ///< Effective radius over spacing, r_e / l0.
-  /// Whether particles may have no bonds, such as those that a part of a body borrows from other parts, where their
-  /// forces are computed. Their F is 1. Otherwise such a particle is an error.
+  /// Whether particles may have no bonds, such as those that a part of a body borrows from other parts, which compute
+  /// their forces. F of such a particle is 1. If false, a particle without bonds is an error.
   bool unbonded = false;
   /// For `LatticeBonds`: the axes in sweep order, slowest first, as `lattice_axes` returns them for the whole body.
   /// Sums over bonds follow this order, so that parts of a body with the same axes reproduce the bits of the whole. All
-  /// zero: chosen by the particles.
+  /// zero: chosen to suit the particles.
   std::array<int, 3> axes{};
 };
 
@@ -40,8 +40,8 @@ inline void validate(const BondSettings& settings) {
           " spacings; it must be positive and below 16 (the paper has 1.75)");
 }
 
-/// Whether `bonded(i, j)` holds. Throws `InputError` if `bonded(j, i)` says otherwise: the forces of such a bond would
-/// not sum to zero. Only particles that a part borrows (`BondSettings::unbonded`) may be bonded from one end.
+/// Whether `bonded(i, j)` holds. Throws `InputError` if `bonded(j, i)` disagrees: the forces of such a bond would not
+/// sum to zero. Only particles that a part borrows (`BondSettings::unbonded`) may be bonded from one end.
 template <class Bonded>
 [[nodiscard]] bool are_bonded(Bonded& bonded, std::size_t i, std::size_t j, bool from_one_end = false) {
   const bool there = bonded(i, j);

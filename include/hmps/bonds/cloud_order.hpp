@@ -16,7 +16,7 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// An order of any cloud of particles in which neighbours are consecutive where possible: rods with a cross-section of
-/// about one spacing squared, side by side in layers; particles of a rod are consecutive. For a lattice, also one that
+/// about one spacing squared, side by side in layers; particles of a rod are consecutive. For a lattice, even one that
 /// is jittered or has gaps, the rods are its rows. The order depends on the positions only, except that the given order
 /// decides between equivalent axes and coincident positions.
 template <int D>

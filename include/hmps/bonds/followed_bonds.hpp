@@ -17,19 +17,19 @@ class FollowedBonds {
   /// Throws `InputError` for bonds without particles, such as those that were moved from.
   explicit FollowedBonds(const B& bonds) : anchor_(bonds), slots_(bonds.slot_count()) {
     require(bonds.size() > 0,
-            "hmps: the bonds of this force hold no particle; were they moved elsewhere, or made of an empty cloud?");
+            "hmps: the bonds of this force hold no particles; were they moved elsewhere, or made from an empty cloud?");
   }
 
   /// The bonds at their current address. Throws `InputError` if they no longer exist or have been replaced.
   [[nodiscard]] const B& now() const {
     const Anchored* const place = anchor_.object();
-    if (place == nullptr)  // not by `require`, so that a compiler knows below that it is not null
+    if (place == nullptr)  // without `require`, so that the compiler knows below that it is not null
       throw InputError(
-          "hmps: the bonds of this force are no more: they were destroyed, or others were assigned to them; keep "
-          "them as long as the force, or make the force anew");
+          "hmps: the bonds of this force no longer exist: they were destroyed or assigned to; keep them as long as "
+          "the force, or make a new force");
     const B& bonds = static_cast<const B&>(*place);
     require(bonds.slot_count() == slots_, "hmps: the bonds of this force hold ", bonds.size(),
-            " particles now, others than when it was made; make the force anew");
+            " particles now, which are not those that it was made for; make a new force");
     return bonds;
   }
 

@@ -32,8 +32,8 @@ template <class T, int D>
   return detail::LatticeCells<D>(reference, spacing).order;
 }
 
-/// The axes of that order, the slowest first: those of a whole body, for `BondSettings::axes` of its parts. Throws as
-/// `lattice_order` does.
+/// The axes of `lattice_order`, the slowest first. Pass the axes of a whole body as `BondSettings::axes` of its parts.
+/// Throws as `lattice_order` does.
 template <class T, int D>
 [[nodiscard]] std::array<int, 3> lattice_axes(const VectorView<T, D>& reference, double spacing) {
   std::array<int, 3> axes{};
@@ -52,7 +52,7 @@ class LatticeBonds : public Blocks<K, D> {
  public:
   using Base::width;
   template <std::size_t N>
-  using Slots = detail::SlotArrays<K, N>;  ///< storage for what bonds read of neighbours
+  using Slots = detail::SlotArrays<K, N>;  ///< storage for the numbers that bonds read from neighbours
 
   /// Bonds all pairs of `reference` (m, in any order, on one lattice) within the effective radius for which `bonded(i,
   /// j)` holds. Throws `InputError` for particles off the lattice, with their apparent spacing, for coincident
@@ -82,7 +82,7 @@ class LatticeBonds : public Blocks<K, D> {
     return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::uint32_t);
   }
 
-  /// The slot from which on the last of the rows of `block` reads.
+  /// The first slot that the last row of `block` reads.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
     const std::size_t end = first_run_[(block + 1) * directions];
     if (end == first_run_[block * directions]) return block * width;
@@ -115,7 +115,7 @@ class LatticeBonds : public Blocks<K, D> {
   }
 
  private:
-  /// The sets of axes of bonds; the set with the bits b is at index b - 1.
+  /// Number of sets of axes that a bond may lie along; the set with the bits b has the index b - 1.
   static constexpr unsigned directions = (1u << D) - 1;
 
   template <class Visit, unsigned... Places>
@@ -153,7 +153,7 @@ class LatticeBonds : public Blocks<K, D> {
                                                              const BondSettings& settings) {
     detail::validate(settings);
     detail::require(reference.size() > 0,
-                    "hmps: there are no particles to bond; look at what was to make them (shape, spacing, "
+                    "hmps: there are no particles to bond; check what should have made them (shape, spacing, "
                     "removal of weak ones)");
     require_finite(reference, "the reference position");
     std::array<int, std::size_t{D}> axes{};
@@ -213,7 +213,7 @@ class LatticeBonds : public Blocks<K, D> {
     }
     if (placed.empty() && n > 1) {  // otherwise the particle without neighbours is reported
       const std::string hint = detail::spacing_hint(reference, settings.spacing);
-      if (!hint.empty()) throw InputError("hmps: no two particles are near enough to be bonded" + hint);
+      if (!hint.empty()) throw InputError("hmps: no two particles are close enough to be bonded" + hint);
     }
     keep_runs(placed);
     for (std::size_t i = 0; i < n; ++i)
@@ -245,7 +245,7 @@ class LatticeBonds : public Blocks<K, D> {
 
   std::vector<Offset> offset_;
   std::vector<Run> runs_;
-  std::vector<std::uint32_t> first_run_;  ///< Of each set of axes of each block.
+  std::vector<std::uint32_t> first_run_;  ///< For each set of axes of each block.
 };
 
 }  // namespace hmps::inline HMPS_ABI

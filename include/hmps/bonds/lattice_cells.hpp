@@ -50,9 +50,10 @@ struct LatticeCells {
   using Cell = LatticeCell<D>;
   std::vector<Cell> cell;                ///< Cell of each particle.
   std::vector<Index> order;              ///< The particles, sorted by cell.
-  std::array<int, std::size_t{D}> axis;  ///< axis[0] is the slowest in the order, axis[D - 1] that of the rows.
+  std::array<int, std::size_t{D}> axis;  ///< axis[0] is the slowest in the order, axis[D - 1] is along the rows.
 
-  /// With rows and planes along `axes`, the slowest first; all zero: along those that suit the particles best.
+  /// Sorts by rows and planes along `axes`, the slowest first; if all are zero, along the axes that suit the particles
+  /// best.
   template <class T>
   LatticeCells(const VectorView<T, D>& reference, double spacing, const std::array<int, std::size_t{D}>& axes = {})
       : cell(reference.size()), order(reference.size()), axis(axes) {
@@ -91,13 +92,13 @@ struct LatticeCells {
  private:
   void require_axes() const {
     for (int d = 0; d < D; ++d)
-      require(std::count(axis.begin(), axis.end(), d) == 1, "hmps: the axes of a lattice are to be each of 0 to ",
-              D - 1, " once, but axis ", d, " is not; take those that lattice_axes returns");
+      require(std::count(axis.begin(), axis.end(), d) == 1, "hmps: the axes of a lattice must be each of 0 to ", D - 1,
+              " once, but axis ", d, " is missing or repeated; use those that lattice_axes returns");
   }
   /// Advice for particles that are not on the lattice of `spacing`.
   template <class T>
   [[nodiscard]] static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
-    constexpr double coarse = 0.3;  // by less than that, rounding moves the nearest neighbours
+    constexpr double coarse = 0.3;  // rounding alone changes the distance of nearest neighbours by less
     if (spacing_hint(reference, spacing, coarse).empty()) require_resolved(reference, spacing, 1e-3);
     const std::string hint = spacing_hint(reference, spacing);
     return hint.empty() ? "; use BondList for a cloud that is no lattice"

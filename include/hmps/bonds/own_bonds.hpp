@@ -59,7 +59,7 @@ concept BondNeighbours = detail::BondPairs<N> || detail::NeighbourLists<N>;
 
 namespace detail {
 
-/// User-defined bonds after all checks, from both ends, sorted by particle and neighbour whatever the given order.
+/// User-defined bonds after all checks, from both ends, sorted by particle and neighbour regardless of the given order.
 class OwnBonds {
  public:
   struct Bond {
@@ -100,7 +100,7 @@ class OwnBonds {
   }
 
   [[nodiscard]] const std::vector<Bond>& operator[](std::size_t i) const { return bonds_[i]; }
-  /// The longest bond (m), 1 if there is none. Throws `InputError` for two bonded particles at one place.
+  /// The longest bond (m), 1 if there is none. Throws `InputError` for two bonded particles at the same place.
   template <class T, int D>
   [[nodiscard]] double longest(const VectorView<T, D>& reference) const {
     double square = 0;
@@ -153,12 +153,13 @@ class OwnBonds {
       require(back == w || !is_finite(w), "hmps: the bond of particles ", i, " and ", j, " has the weight ", w,
               " as w(", i, ", ", j, ") and ", back, " as w(", j, ", ", i, "); both must be the same");
     }
-    require(is_finite(w) && is_finite(static_cast<K>(w)) && static_cast<K>(w) > K(0),
-            "hmps: the weight of the bond of particles ", i, " and ", j, " is ", w,
-            "; it must be positive and finite in the scalar of the bonds. Leave out bonds that are to carry nothing");
-    // Further out, products of weights overflow or vanish in the inverse of A.
+    require(
+        is_finite(w) && is_finite(static_cast<K>(w)) && static_cast<K>(w) > K(0),
+        "hmps: the weight of the bond of particles ", i, " and ", j, " is ", w,
+        "; it must be positive and finite in the scalar type of the bonds. Leave out bonds that should carry nothing");
+    // Outside these limits, products of weights overflow or vanish in the inverse of A.
     require(w >= 1e-30 && w <= 1e30, "hmps: the weight of the bond of particles ", i, " and ", j, " is ", w,
-            "; give weights between 1e-30 and 1e30, as a common factor of all changes nothing");
+            "; give weights between 1e-30 and 1e30 (a common factor of all weights changes nothing)");
     return w;
   }
 
@@ -166,7 +167,7 @@ class OwnBonds {
   void add_list(std::size_t i, const L& list, const W& weights) {
     if constexpr (is_given<W>)
       require(weights.size() == bonds_.size() && weights[i].size() == list.size(), "hmps: particle ", i, " has ",
-              list.size(), " neighbours but another number of weights; give a list of weights as long for each");
+              list.size(), " neighbours but another number of weights; give each particle a weight per neighbour");
     for (std::size_t k = 0; k < list.size(); ++k) {
       const auto j = static_cast<std::size_t>(list[k]);
       require(j < bonds_.size(), "hmps: particle ", i, " has the neighbour ", list[k], " but there are only ",
@@ -186,14 +187,14 @@ class OwnBonds {
     bonds_[i].push_back({static_cast<Index>(j), w});
   }
 
-  /// Sorts the bonds and refuses repeated ones.
+  /// Sorts the bonds and rejects repeated ones.
   void settle() {
     for (std::size_t i = 0; i < bonds_.size(); ++i) {
       auto& own = bonds_[i];
       std::sort(own.begin(), own.end(), [](const Bond& a, const Bond& b) { return a.neighbour < b.neighbour; });
       for (std::size_t k = 1; k < own.size(); ++k)
         require(own[k - 1].neighbour != own[k].neighbour, "hmps: the bond of particles ", i, " and ", own[k].neighbour,
-                " is there twice; name each once", " (in lists of neighbours, once in the list of either end)");
+                " is given twice; name each once", " (in lists of neighbours, once in the list of each end)");
     }
   }
 
@@ -206,7 +207,7 @@ class OwnBonds {
         require(back != other.end() && back->neighbour == i, "hmps: particle ", i, " has the neighbour ",
                 bond.neighbour, " but not the other way round; name each bond in the lists of both ends");
         require(back->weight == bond.weight, "hmps: the bond of particles ", i, " and ", bond.neighbour,
-                " has the weight ", bond.weight, " from the one and ", back->weight,
+                " has the weight ", bond.weight, " from one end and ", back->weight,
                 " from the other; both must be the same");
       }
   }

@@ -16,13 +16,13 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `InputError` if `settings` do not fit the cloud of `search`: if its particles have more than four times the
 /// neighbours expected within the radius, or if nine in ten have none. Both occur when metres and millimetres are
-/// mixed. The former would take memory quadratic in the number of particles, so 64 particles, spread over the cloud,
-/// are tested first. The second test is left out unless `also_alone`.
+/// mixed. The first would take memory quadratic in the number of particles, so a sample of 64 particles, spread over
+/// the cloud, is tested in advance. The second test is made only if `also_alone` is set.
 template <class T, int D>
 void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
                                typename VectorView<T, D>::Scalar radius, bool also_alone = true) {
   constexpr std::size_t most_samples = 64;
-  constexpr double ball = D == 3 ? 4.18879 : 3.14159;  // of radius 1: as many particles, of a spacing of 1
+  constexpr double ball = D == 3 ? 4.18879 : 3.14159;  // volume for radius 1: the number of particles at spacing 1
   const double usual = std::max(2.0 * D, ball * std::pow(settings.radius_ratio, D));
   const std::size_t n = search.points().size(), samples = std::min(n, most_samples);
   if (n < 2) return;
@@ -46,7 +46,7 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
   const double mean = static_cast<double>(sum) / static_cast<double>(samples);
   if (mean > 4 * usual)
     throw InputError(message("hmps: particle ", fullest, " has ", most, " neighbours within the effective radius of ",
-                             radius, " m, ", samples, " particles that were looked at have ", std::round(mean),
+                             radius, " m, ", samples, " particles that were sampled have ", std::round(mean),
                              " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
                              "; the typical distance to the nearest particle is ", nearest(),
                              " m: give a spacing of that size, in the unit of the positions"));
@@ -61,7 +61,7 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                                              "the positions");
     throw InputError(message("hmps: particle ", lonely, " has 0 neighbours within the effective radius of ", radius,
                              " m, and so have ", alone, " of ", samples,
-                             " particles that were looked at; the typical distance to the nearest particle is ", apart,
+                             " particles that were sampled; the typical distance to the nearest particle is ", apart,
                              " m: ", remedy));
   }
 }

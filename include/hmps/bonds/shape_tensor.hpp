@@ -27,8 +27,8 @@ struct ShapeTensor {
     ++neighbours;
   }
 
-  /// A^-1. Throws `InputError`, naming `particle`, if its bonds do not span space: the deformation gradient
-  /// (\paper{11}) would not exist.
+  /// A^-1. Throws `InputError`, naming `particle`, if its bonds do not span space: it would have no deformation
+  /// gradient (\paper{11}).
   [[nodiscard]] Matrix<double, D> inverse(std::size_t particle, bool unbonded = false) const {
     if (unbonded && neighbours == 0) return A;
     const double mean = A.trace() / D;
@@ -45,7 +45,7 @@ struct ShapeTensor {
     return A.inverse();
   }
 
-  /// Smallest eigenvalue of A in m2. Divided by the squared spacing: 3.48 in a full cubic lattice with r_e = 1.75
+  /// Least eigenvalue of A in m2. Divided by the squared spacing: 3.48 in a full cubic lattice with r_e = 1.75
   /// spacings, 1.74 at a flat surface; below 0.75 the stable step shrinks.
   [[nodiscard]] double support() const {
     Eigen::SelfAdjointEigenSolver<Matrix<double, D>> solver;

@@ -51,7 +51,7 @@ class Anchored {
   void leave() {
     if (place_) *place_ = nullptr;
   }
-  Place place_;  ///< Null in an object that was moved from.
+  Place place_;  ///< Null in a moved-from object.
 };
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -38,8 +38,9 @@ struct StateError : Error {
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// One part of a message: words, a number, or the numbers of an Eigen vector. Refers to it. Non-template functions make
-/// the text, because in a header-only library every place that can throw adds to compile time.
+/// One part of a message: words, a number, or the numbers of an Eigen vector. Refers to words and vectors; does not
+/// copy them. The text is built by non-template functions, because in a header-only library every place that can throw
+/// adds to compile time.
 class MessagePart {
  public:
   template <class T>
@@ -94,7 +95,7 @@ class MessagePart {
 
  private:
   enum class Kind { words, integer, unsigned_integer, number, vector };
-  /// With nine digits, which distinguish any two floats.
+  /// Appends `number` with nine digits, which distinguish any two floats.
   static void append_number(std::string& text, double number) {
     char digits[32];
     text.append(digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 9).ptr);

@@ -32,14 +32,14 @@ struct Serial {
   }
 };
 
-/// Folds `term(i)` for `i` in `[0, n)` with `combine`, starting from `start`. Chunks have a fixed
-/// length and are combined in order, so the bits do not depend on the executor.
+/// Folds `term(i)` for `i` in `[0, n)` with `combine`, starting from `start`. Chunks have a fixed length and are
+/// combined in order, so the result is identical to the bit for any executor.
 template <class T, class Term, class Combine, Executor E = Serial>
 [[nodiscard]] T reduce(std::size_t n, T start, Term&& term, Combine&& combine, const E& execute = {}) {
-  static_assert(!std::same_as<T, bool>, "hmps: reduce to int, not bool: the chunks are written at the same time");
+  static_assert(!std::same_as<T, bool>, "hmps: reduce to int, not bool: the chunks are written concurrently");
   constexpr std::size_t chunk = 1024;
   const std::size_t chunks = (n + chunk - 1) / chunk;
-  std::vector<T> partial;  // assigned, since g++ 12 takes the filling constructor for a wrong free
+  std::vector<T> partial;  // assigned, because g++ 12 warns of an invalid free in the filling constructor
   partial.assign(chunks, start);
   execute(chunks, [&](std::size_t c) {
     const std::size_t end = std::min(n, (c + 1) * chunk);

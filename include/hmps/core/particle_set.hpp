@@ -12,8 +12,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// A set of particles, usable as a list and as a predicate: `set(i)` is whether particle i belongs to it, and
-/// `set.indices()` are its particles in order. It can be passed wherever the library takes a predicate of particles,
+/// A set of particles, usable as a list and as a predicate: `set(i)` says whether particle i belongs to it, and
+/// `set.indices()` lists its particles in order. It can be passed wherever the library takes a predicate of particles,
 /// and `indices()` wherever it takes a list; `~set` is the complement:
 ///
 ///     const hmps::ParticleSet clamped(X.size(), [&](std::size_t i) { return X(i, 0) < 0; });
@@ -27,8 +27,8 @@ class ParticleSet {
     for (std::size_t i = 0; i < size; ++i) member_[i] = belongs(i) ? 1 : 0;
     list();
   }
-  /// The particles `indices`, in any order, of `size`. Throws `InputError` for an index out of range and for a repeated
-  /// one.
+  /// The particles `indices`, in any order, of a scene of `size` particles. Throws `InputError` for an index that is
+  /// out of range or repeated.
   ParticleSet(std::size_t size, const std::vector<Index>& indices) : member_(size) {
     for (const Index i : indices) {
       detail::require(i < size, "hmps: a set of particles names particle ", i, " but there are only ", size,
@@ -68,8 +68,8 @@ class ParticleSet {
 
  private:
   static void require_same_scene(const ParticleSet& a, const ParticleSet& b) {
-    detail::require(a.scene_size() == b.scene_size(), "hmps: two sets of particles are of ", a.scene_size(), " and of ",
-                    b.scene_size(), " particles; make both of the same scene");
+    detail::require(a.scene_size() == b.scene_size(), "hmps: two sets of particles are for scenes of ", a.scene_size(),
+                    " and ", b.scene_size(), " particles; make both for the same scene");
   }
   void list() {
     for (std::size_t i = 0; i < member_.size(); ++i)
@@ -82,8 +82,8 @@ class ParticleSet {
 
 namespace detail {
 
-/// The set of particles that `predicate` is, or that it holds as a `std::function` (which can only be seen with RTTI);
-/// null if it is none.
+/// The set of particles behind `predicate`: itself, or the one that it holds as a `std::function` (detected only with
+/// RTTI). Null if there is none.
 template <class Predicate>
 [[nodiscard]] const ParticleSet* set_in([[maybe_unused]] const Predicate& predicate) {
   if constexpr (std::is_same_v<Predicate, ParticleSet>) return &predicate;
@@ -93,12 +93,12 @@ template <class Predicate>
   return nullptr;
 }
 
-/// Throws `InputError` if `predicate` is a set of particles of another scene than one of `size` particles. `what` says
-/// which particles are asked for.
+/// Throws `InputError` if `predicate` is a set of particles for a scene that does not have `size` particles. `what`
+/// says in the message which particles they are.
 template <class Predicate>
 void require_scene(const Predicate& predicate, std::size_t size, const char* what) {
   const ParticleSet* const set = set_in(predicate);
-  require(set == nullptr || set->scene_size() == size, "hmps: the set of particles ", what, " is one of ",
+  require(set == nullptr || set->scene_size() == size, "hmps: the set of particles ", what, " is for a scene of ",
           set == nullptr ? 0 : set->scene_size(), " particles, but there are ", size, "; make it for all of them");
 }
 

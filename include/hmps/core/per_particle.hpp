@@ -23,30 +23,30 @@ template <class T>
 struct IsScalarView<ScalarView<T>> : std::true_type {};
 }  // namespace detail
 
-/// One particle, as the argument of callables outside the sweeps: `at(view)` is the parameter of the particle. The same
-/// `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` thus serves force and energy.
+/// One particle, as the argument of callables outside the sweeps: `at(view)` is the parameter of the particle. Thus the
+/// same `[&](const auto& at) { return MooneyRivlin{at(c1), at(c2), at(d1)}; }` serves force and energy.
 struct OneParticle {
   std::size_t index;
 
   /// A parameter of the particle. Throws `InputError` if the view ends before it.
   template <class P>
   [[nodiscard]] auto operator()(const ScalarView<P>& parameter) const {
-    detail::require(index < parameter.size(), "hmps: the parameters hold ", parameter.size(),
-                    " particles, but particle ", index, " asks for its own; give one for each");
+    detail::require(index < parameter.size(), "hmps: the view of parameters holds ", parameter.size(),
+                    " particles, but particle ", index, " needs a parameter too; give one for each");
     return static_cast<double>(parameter[index]);
   }
   /// A vector of the particle, such as the direction of its fibres. Throws `InputError` if the view ends before it.
   template <class P, int D>
   [[nodiscard]] Vector<double, D> operator()(const VectorView<P, D>& parameter) const {
-    detail::require(index < parameter.size(), "hmps: the vectors hold ", parameter.size(), " particles, but particle ",
-                    index, " asks for its own; give one for each");
+    detail::require(index < parameter.size(), "hmps: the view of vectors holds ", parameter.size(),
+                    " particles, but particle ", index, " needs a vector too; give one for each");
     return parameter[index].template cast<double>();
   }
   /// A parameter of the particle's body: `table[body[i]]`. Throws `InputError` for a body that is not in the table.
   template <class P, class B>
   [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {
-    detail::require(index < body.size(), "hmps: the bodies hold ", body.size(), " particles, but particle ", index,
-                    " asks for its own; give one for each");
+    detail::require(index < body.size(), "hmps: the view of bodies holds ", body.size(), " particles, but particle ",
+                    index, " needs a body too; give one for each");
     const auto b = static_cast<std::size_t>(body[index]);
     detail::require(b < table.size(), "hmps: particle ", index, " belongs to body ", +body[index],
                     " but the table of parameters has ", table.size(), " bodies; number them from 0");

@@ -15,7 +15,7 @@ inline void require_step(double dt) {
   require(detail::is_finite(dt) && dt > 0, "hmps: the time step is ", dt,
           " s; it must be positive and finite (stable_step estimates the largest stable one)");
 }
-/// One component of the velocity of one particle, under the force density f: v + f dt / rho.
+/// Adds the kick by the force density `f` to one component of the velocity of one particle: v + f dt / rho.
 template <class T, class U, class Rho>
 void kick(T& v, U f, Rho rho, double dt) {
   using Real = std::common_type_t<T, U>;

@@ -30,8 +30,8 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   std::string text;
   while (file) {
     const std::size_t size = text.size();
-    require(ends || size <= most, "hmps: ", path, " is no regular file and has not ended after ", most,
-            " bytes; write what it gives to a file, or check the name");
+    require(ends || size <= most, "hmps: ", path, " is not a regular file and has not ended after ", most,
+            " bytes; write its output to a file, or check the name");
     text.resize(size + piece);
     file.read(text.data() + size, static_cast<std::streamsize>(piece));
     text.resize(size + static_cast<std::size_t>(file.gcount()));
@@ -40,7 +40,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return text;
 }
 
-/// A piece of a file for a message: what cannot be printed as hexadecimal escapes, cut after 40 characters.
+/// A piece of a file for a message, cut after 40 characters; unprintable bytes become hexadecimal escapes.
 [[nodiscard]] inline std::string printable(std::string_view text) {
   constexpr std::size_t most = 40;
   constexpr std::string_view digits = "0123456789abcdef";
@@ -64,7 +64,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-/// Removes and returns the first line of `text`, without its end.
+/// Removes and returns the first line of `text`, without the line break.
 [[nodiscard]] inline std::string_view take_line(std::string_view& text) {
   const auto end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -80,7 +80,7 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return word;
 }
 
-/// Parses all of `text` as a number, independent of the locale. Returns false if it is not one.
+/// Parses all of `text` as a number, independently of the locale. Returns false if it is not one.
 template <class T>
 [[nodiscard]] bool parse_number(std::string_view text, T& number) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

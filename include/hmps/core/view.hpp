@@ -92,7 +92,7 @@ concept Elements = requires(R& range) {
   typename MemberTraits<std::remove_const_t<typename decltype(std::span(range))::element_type>>::Scalar;
 };
 
-/// An Eigen object that refers to memory of others, as opposed to a temporary that owns its numbers.
+/// An Eigen object whose numbers outlive the expression, as opposed to a temporary that owns them.
 template <class M>
 concept EigenView = std::derived_from<std::remove_cvref_t<M>, Eigen::DenseBase<std::remove_cvref_t<M>>> &&
     requires(M& m) {
@@ -125,7 +125,7 @@ requires(detail::Elements<R> && sizeof...(More) >= 1 && (detail::Elements<More> 
   const std::span x(first);
   using T = typename decltype(x)::element_type;
   ((detail::require(std::span(more).size() == x.size(), "hmps: the component arrays of a vector view have ", x.size(),
-                    " and ", std::span(more).size(), " elements; give arrays of one size")),
+                    " and ", std::span(more).size(), " elements; give arrays of equal size")),
    ...);
   constexpr int D = 1 + static_cast<int>(sizeof...(More));
   return VectorView<T, D>({x.data(), std::span(more).data()...}, x.size(), sizeof(T));

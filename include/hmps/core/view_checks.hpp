@@ -27,12 +27,12 @@ void require_view(const View<T, N>& view, const char* name) {
     bits |= reinterpret_cast<std::uintptr_t>(view.base(c));
   }
   detail::require(!null, "hmps: the view of ", name, " has ", view.size(),
-                  " particles at the address null; give it memory");
+                  " particles but a null address; give it memory");
   detail::require(bits % alignof(T) == 0, "hmps: the view of ", name, " is not aligned: addresses and stride (", stride,
-                  " bytes) must be multiples of ", alignof(T), "; take the members of packed structs out first");
+                  " bytes) must be multiples of ", alignof(T), "; copy the members of packed structs to arrays first");
   if constexpr (!std::is_const_v<T>)
     detail::require(view.size() == 1 || apart >= sizeof(T), "hmps: the view of ", name,
-                    " is written, but its stride of ", stride,
+                    " is writable, but its stride of ", stride,
                     " bytes puts several particles in one place; a scalar takes ", sizeof(T), " bytes");
 }
 
@@ -41,7 +41,7 @@ void require_view(const View<T, N>& view, const char* name) {
 template <class T, int N>
 void require_size(const View<T, N>& view, std::size_t size, const char* name) {
   detail::require(view.size() == size, "hmps: the view of ", name, " holds ", view.size(), " particles but ", size,
-                  " are needed; give every view of one call the same particles");
+                  " are needed; give all views of one call the same particles");
   require_view(view, name);
 }
 

@@ -19,7 +19,7 @@
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 
-/// Energies of a body in J (in two dimensions per metre of thickness), summed in double in an order that does not
+/// Energies of a body in J (in two dimensions per metre of thickness), summed in double and in an order that does not
 /// depend on the executor. `volume` is the volume of a particle in the reference configuration, l0^D on a lattice.
 /// Without viscosity, contact and forced displacements, the scheme conserves kinetic + strain + artificial energy.
 /// `InternalForce::energy` returns the energies of all its terms.
@@ -48,7 +48,7 @@ template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 /// Elastic strain energy, sum of V W(F) (\paper{6}, and \paper{15} for the Mooney-Rivlin law).
 ///
 /// @param F         deformation gradients, \paper{11}
-/// @param material  a law with an energy, or a callable of `OneParticle` that gives the law of each
+/// @param material  a law with an energy, or a callable of `OneParticle` that returns the law of each particle
 /// @param volume    in m^D, a number or a `ScalarView`
 template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double strain_energy(const MatrixView<T, D>& F, const Material& material, const Vol& volume,
@@ -67,8 +67,8 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 }
 
 namespace detail {
-/// sum_j |r_ij - F_i r0_ij|^2 w_ij in m2, \paper{9}, for the particles of one block, from the displacements u: the
-/// residual of a bond is u_j - u_i - (F_i - 1) r0_ij.
+/// sum_j |r_ij - F_i r0_ij|^2 w_ij in m2, \paper{9}, for the particles of one block, computed from the displacements u:
+/// the residual of a bond is u_j - u_i - (F_i - 1) r0_ij.
 template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
 [[nodiscard]] HMPS_INLINE Lanes<K> misfit_lanes(const B& bonds, std::size_t block,
                                                 const typename B::template Slots<std::size_t{D}>& displacement,
@@ -100,7 +100,7 @@ template <Bonds B, class T, class K = typename B::Scalar, int D = B::dimension>
 }
 }  // namespace detail
 
-/// Energy of Kondo's stabiliser, whose gradient is \paper{19}: the sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
+/// Energy of Kondo's stabiliser, from which \paper{19} derives: the sum of V C_i / 2 sum_j |r_ij - F_i r0_ij|^2 w_ij
 /// with C_i from \paper{20}. The residuals are taken in the scalar type of the bonds, as in the force. Compared with
 /// the strain energy, it shows how much of the motion the deformation gradients do not resolve.
 ///

@@ -16,7 +16,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The interval of det F in which section 4.1 of the paper regards volume as conserved.
+/// The interval of det F within which section 4.1 of the paper regards volume as conserved.
 struct JacobianInterval {
   double low = 0.98;
   double high = 1.02;
@@ -39,9 +39,9 @@ struct EveryParticle {
 };
 
 /// Statistics of det F over the particles for which `counts(i)` holds, for example those outside the control regions,
-/// as in section 4.1 of the paper. Throws `InputError` if there is none, for a set of another scene, for an interval
-/// that is upside down, and for an F of zeros, which nothing has written. A NaN in F gives a NaN mean; `check_state`
-/// finds the particle.
+/// as in section 4.1 of the paper. Throws `InputError` if there are none, for a set of another scene, for an interval
+/// whose bounds are interchanged, and for an F of zeros, which means that nothing has written it. A NaN in F gives a
+/// NaN mean; `check_state` finds the particle.
 ///
 /// @param F  deformation gradients, \paper{11}
 template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
@@ -66,7 +66,7 @@ template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
     s.smallest = s.largest = i;
     return s;
   };
-  // Particles come in order, so that of equal values the one already in `a` is the first.
+  // Particles come in order, so among equal values the one already in `a` is the first.
   const auto merge = [](Sum a, const Sum& b) {
     if (b.min < a.min) {
       a.min = b.min;
@@ -83,7 +83,7 @@ template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
   };
   Sum all = reduce(F.size(), Sum{}, one, merge, execute);
   detail::require(all.count > 0,
-                  "hmps: the statistics of det F were asked for no particle; `counts` must hold for some");
+                  "hmps: the statistics of det F were requested for no particle; `counts` must be true for some");
   all.mean /= static_cast<double>(all.count);
   all.share_within = static_cast<double>(all.within) / static_cast<double>(all.count);
   return all;

@@ -61,8 +61,8 @@ template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E 
   require_size(v, x.size(), "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
   require_positive(volume, v.size(), "volume", "m3");
-  detail::require(detail::all_finite(about), "hmps: the angular momentum is asked for about the point (",
-                  about.transpose(), "); give finite metres");
+  detail::require(detail::all_finite(about), "hmps: the angular momentum was requested about the point (",
+                  about.transpose(), ") m; give finite numbers");
   using Sum = Axial<D>;
   return reduce(
       v.size(), Sum(Sum::Zero()),

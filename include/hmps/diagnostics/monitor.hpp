@@ -147,8 +147,8 @@ template <class X, class V, class FView, int D, class E>
 
 /// Checks a state for signs of a failed simulation, in this order: NaN or infinity (reports the first such particle),
 /// det F <= 0 (the particle with the smallest), a speed above `limits.speed_limit` (the fastest particle). Returns an
-/// empty result for a valid state. The result does not depend on the executor. Throws `InputError` for an F of
-/// zeros, which nothing has written.
+/// empty result for a valid state. The result does not depend on the executor. Throws `InputError` for an F of zeros,
+/// which means that nothing has written it.
 ///
 /// @param x  positions in m
 /// @param v  velocities in m/s

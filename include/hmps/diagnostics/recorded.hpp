@@ -18,8 +18,8 @@ HMPS_COLD void require_recorded(const MatrixView<T, D>& F) {
   require_view(F, "deformation gradients");
   for (std::size_t i = 0; i < F.size(); ++i)
     require(!F[i].isZero(0), "hmps: the deformation gradient of particle ", i,
-            " is zero, so that nothing has written it: evaluate the force with `record(F)` among its terms, or "
-            "`deformation_gradient`, first; particles that do not deform need the identity");
+            " is zero, which means that nothing has written it: first evaluate the force with `record(F)` among its "
+            "terms, or `deformation_gradient`; particles that do not deform need the identity");
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -13,7 +13,7 @@
 #include "hmps/core/view_checks.hpp"
 #include "hmps/diagnostics/recorded.hpp"
 
-/// Strain for output, from deformation gradients: of one particle, and in the plural of all of them.
+/// Strain for output, from deformation gradients: for one particle, and in the plural for all particles.
 /// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 4;
 /// Holzapfel, Nonlinear Solid Mechanics, 2000, chapter 2.
 namespace hmps::inline HMPS_ABI {
@@ -26,13 +26,13 @@ template <class T, int D>
   return (H + H.transpose() + H.transpose() * H) / T(2);
 }
 
-/// The principal stretches, the largest first: the square roots of the eigenvalues of F^T F. By what factor a fibre
-/// along each of its principal axes is longer than in the reference configuration; their product is |det F|. Rounding
-/// is relative to the largest: a stretch of 1e-6 beside 1 has an error of about 1e-10 in double.
+/// The principal stretches, the largest first: the square roots of the eigenvalues of F^T F, which are the factors by
+/// which fibres along its principal axes are longer than in the reference configuration. Their product is |det F|.
+/// Rounding is relative to the largest: if that is 1, a stretch of 1e-6 has an error of about 1e-10 in double.
 template <class T, int D>
 [[nodiscard]] Vector<T, D> principal_stretches(const Matrix<T, D>& F) {
   using Strain = Eigen::Matrix<T, D, D>;
-  // Not computeDirect: it loses half of the digits where two stretches are equal.
+  // Not computeDirect, which loses half of the digits if two stretches are equal.
   const Eigen::SelfAdjointEigenSolver<Strain> solver(Strain(green_lagrange_strain(F)), Eigen::EigenvaluesOnly);
   Vector<T, D> stretches;
   for (int c = 0; c < D; ++c) stretches[c] = std::sqrt(std::max(T(1) + T(2) * solver.eigenvalues()[D - 1 - c], T(0)));
@@ -40,8 +40,8 @@ template <class T, int D>
 }
 
 /// Writes the Green-Lagrange strain of every particle, column-major, computed in double precision. Throws `InputError`
-/// for views of different sizes, and for a deformation gradient that is not finite or that nothing has written, with
-/// the particle.
+/// for views of different sizes, and, naming the particle, for a deformation gradient that is not finite or that
+/// nothing has written.
 template <class T, int D, class R, Executor E = Serial>
 void green_lagrange_strains(const MatrixView<T, D>& F, const MatrixView<R, D>& strain, const E& execute = {}) {
   require_finite(F, "the deformation gradient");

@@ -16,14 +16,15 @@
 #include "hmps/diagnostics/recorded.hpp"
 #include "hmps/laws/law.hpp"
 
-/// Stress for output, from deformation gradients and the law: `cauchy_stress` and `von_mises_stress` of one particle,
-/// the same in the plural for all of them. The first Piola-Kirchhoff stress of one particle is `first_piola_kirchhoff`.
-/// It is the stress of the law alone: what `artificial`, `viscous` and `mean_dilatation` add to the force is not in it.
+/// Stress for output, from deformation gradients and the law: `cauchy_stress` and `von_mises_stress` for one particle,
+/// the same names in the plural for all particles. The first Piola-Kirchhoff stress of one particle is
+/// `first_piola_kirchhoff`. It is the stress of the law alone, without what `artificial`, `viscous` and
+/// `mean_dilatation` add to the force.
 /// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 5;
 /// Holzapfel, Nonlinear Solid Mechanics, 2000, chapter 3.
 namespace hmps::inline HMPS_ABI {
 
-/// The deformation gradient in space of one in the plane, F33 = 1.
+/// The three-dimensional deformation gradient of one in the plane, with F33 = 1.
 template <class T>
 [[nodiscard]] Matrix<T, 3> plane_strain(const Matrix<T, 2>& F) {
   Matrix<T, 3> result = Matrix<T, 3>::Identity();
@@ -32,8 +33,8 @@ template <class T>
 }
 
 /// The Cauchy stress in Pa, force per current area: sigma = P F^T / J, with P = dW/dF by \paper{7} and J = det F.
-/// Symmetric up to rounding for laws that do not change under rotation, which are all but `LinearElastic`. In two
-/// dimensions its part in the plane. `F` must not be singular.
+/// Symmetric up to rounding for laws that are invariant under rotation, which are all but `LinearElastic`. In two
+/// dimensions it is the part in the plane. `F` must not be singular.
 template <class Law, class T, int D>
 [[nodiscard]] Matrix<T, D> cauchy_stress(const Law& law, const Matrix<T, D>& F) {
   const Matrix<T, D> P = first_piola_kirchhoff(law, F);
@@ -41,7 +42,7 @@ template <class Law, class T, int D>
 }
 
 /// The von Mises stress in Pa of a Cauchy stress: sqrt(3/2 s : s), with s the deviator of its symmetric part. In simple
-/// tension it is the tension, in simple shear sqrt(3) times the shear stress; it does not feel pressure.
+/// tension it is the tension, in simple shear sqrt(3) times the shear stress; pressure does not affect it.
 template <class T>
 [[nodiscard]] T von_mises_stress(const Matrix<T, 3>& cauchy) {
   const auto square = [](T x) { return x * x; };
@@ -53,7 +54,7 @@ template <class T>
 }
 
 /// The same at the deformation gradient `F` of a particle with the law `law`. In two dimensions it is that of plane
-/// strain, with the stress across the plane, so that the law must also work in three.
+/// strain, including the stress across the plane, so the law must also work in three.
 template <class Law, class T, int D>
 [[nodiscard]] T von_mises_stress(const Law& law, const Matrix<T, D>& F) {
   if constexpr (D == 2) {
@@ -75,13 +76,13 @@ void require_finite_result(const View<R, N>& values, const MatrixView<T, D>& F, 
     const Matrix<double, D> gradient = F[i].template cast<double>();
     throw StateError(message("hmps: the ", name, " of particle ", i, " is not finite; its deformation gradient has ",
                              "det F = ", determinant(gradient),
-                             ": where that is not positive the particle is crushed or turned inside out; take a "
+                             ": if that is not positive, the particle is crushed or turned inside out; use a "
                              "smaller step, or wrap the law as Continued{law}"));
   }
 }
 
-/// Writes `value(law, F)`, in double, of every particle to `stress`, called `name`; with the errors of
-/// `cauchy_stresses`.
+/// Writes `value(law, F)` of every particle, computed in double, to `stress`, called `name`. Throws as
+/// `cauchy_stresses` does.
 template <class T, int D, class Material, class R, int N, class Value, class E>
 void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const View<R, N>& stress, const char* name,
                      const Value& value, const E& execute) {
@@ -105,9 +106,9 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
 /// Writes the Cauchy stress in Pa of every particle, see `cauchy_stress`, computed in double precision.
 ///
 /// @param F         deformation gradients, \paper{11}
-/// @param material  a law, or a callable of `OneParticle` that gives the law of each particle
-/// @param stress    where they are written, column-major
-/// Throws `InputError` for views of different sizes, `StateError` where a stress is not finite, with the particle.
+/// @param material  a law, or a callable of `OneParticle` that returns the law of each particle
+/// @param stress    where the stresses are written, column-major
+/// Throws `InputError` for views of different sizes, and `StateError`, naming the particle, if a stress is not finite.
 template <class T, int D, class Material, class R, Executor E = Serial>
 void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
                      const E& execute = {}) {

@@ -17,8 +17,8 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// The threads of most OpenMP runtimes spin while they wait for each other. On a machine that is busy with other
 /// programs, spinning threads take time from each other: with two cores and a load of six, two threads were four times
-/// as slow as one, and as fast as one with OMP_WAIT_POLICY=passive. Leave a core to other programs, or start the
-/// program with OMP_WAIT_POLICY=passive, which a header cannot set.
+/// as slow as one thread; with OMP_WAIT_POLICY=passive they were as fast as one. Leave a core to other programs, or
+/// start the program with OMP_WAIT_POLICY=passive, which a header cannot set.
 struct OpenMP {
   int threads = omp_get_max_threads();  ///< number of threads, from 1 to `most_threads()`
 
@@ -26,8 +26,8 @@ struct OpenMP {
   void operator()(std::size_t n, Body&& body) const {
     detail::require(threads >= 1, "hmps: the number of OpenMP threads is ", threads, "; it must be at least 1");
     detail::require(threads <= most_threads(), "hmps: the number of OpenMP threads is ", threads, ", but there are ",
-                    omp_get_num_procs(), " processors, for which ", most_threads(),
-                    " are the most that are started: more only wait for each other; look at OMP_NUM_THREADS");
+                    omp_get_num_procs(), " processors, for which at most ", most_threads(),
+                    " are started: more would only wait for each other; check OMP_NUM_THREADS");
     std::exception_ptr failure;
     const auto end = static_cast<std::ptrdiff_t>(n);
 #pragma omp parallel for num_threads(threads) schedule(static)

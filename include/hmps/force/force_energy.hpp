@@ -27,8 +27,8 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The energies of a body, for each of the `N` terms of its force in the order of the arguments, in J (in two
-/// dimensions per metre of thickness). Terms without an energy, such as viscosity, have zero.
+/// The energy of a body for each of the `N` terms of its force, in the order of the arguments, in J (in two dimensions
+/// per metre of thickness). It is zero for terms without an energy, such as viscosity.
 template <std::size_t N>
 struct ForceEnergy {
   std::array<double, N> of_term{};
@@ -70,7 +70,7 @@ class ParticleState : public OneParticle {
   [[nodiscard]] double mean_dilatation() const {
     detail::require(
         !theta_.empty(),
-        "hmps: an energy asks for the mean dilatation in a force without such a term; give it pressure(...)");
+        "hmps: an energy uses the mean dilatation in a force without such a term; give the term pressure(...)");
     return theta_[index];
   }
 
@@ -113,7 +113,7 @@ template <class Term, Bonds B>
         requires {
           { term.energy(particle) } -> std::convertible_to<double>;
         },
-        "hmps: this term has no energy(particle), of a ParticleState, in J/m3; let it return 0 if it keeps none");
+        "hmps: this term has no energy(particle), of a ParticleState, in J/m3; let it return 0 if it stores none");
     sum += static_cast<double>(term.energy(particle));
   }
   return sum;

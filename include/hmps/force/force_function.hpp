@@ -8,9 +8,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Holds any force, to choose one at run time: the result of `internal_force`, or a lambda that calls several forces,
-/// for a state in the scalar type `T`. `stable_step` and `relax` accept it like any other force. A call costs one
-/// indirection.
+/// Holds any force for a state in the scalar type `T`, so that it can be chosen at run time: the result of
+/// `internal_force`, or a lambda that calls several forces. `stable_step` and `relax` accept it like any other force. A
+/// call costs one indirection.
 ///
 ///     hmps::ForceFunction<double, 3> force = hmps::internal_force(bonds, hmps::elastic(law));
 ///     if (damped) force = hmps::internal_force(bonds, hmps::elastic(law), hmps::viscous(rho, nu));

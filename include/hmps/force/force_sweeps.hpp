@@ -85,7 +85,7 @@ class ForceSweeps {
   void press(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
-    // If the mean is taken twice, `average` has swapped the two.
+    // If the mean is taken twice, `average` has written the dilatation to pressure_.
     auto &dilatation = means == 2 ? pressure_ : dilatation_, &kept = means == 2 ? dilatation_ : pressure_;
     const T theta = d * detail::sum_over_neighbourhood(bonds, block, dilatation);
     const Matrix<T, D> inverse = bonds.shape_inverse_lanes(block), F = kept_gradient(block);
@@ -94,7 +94,7 @@ class ForceSweeps {
     std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
     kept.keep(0, slot, carried_scale(bonds, block) * pressure);
   }
-  /// If the mean is taken twice: the other mean, of the dilatation before `press`, of the pressure after it.
+  /// If the mean is taken twice: the additional mean, of the dilatation before `press` and of the pressure after it.
   void average(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
@@ -183,7 +183,7 @@ class ForceSweeps {
     if constexpr (requires { term.check(bonds.size()); }) term.check(bonds.size());
     if constexpr (PairTerm<Term, K, D>) require_tensions(term, bonds);
     if constexpr (requires(const BlockOfParticles<K, D>& particles) { term.check_parameters(particles); }) {
-      // Stretched and sheared by a thousandth: laws respond, and none is beyond its range.
+      // Stretched and sheared by about a thousandth: every law responds, and none leaves its range.
       Matrix<T, D> F;
       for (int k = 0; k < D * D; ++k) F(k % D, k / D) = T(k % D == k / D ? K(1.001) : K(0.0002) * static_cast<K>(k));
       for (std::size_t block = 0; block < bonds.block_count(); ++block)
@@ -234,7 +234,7 @@ class ForceSweeps {
     const auto carried = [&](int row, int col) HMPS_INLINE_LAMBDA {
       return coupling[static_cast<std::size_t>(row + D * col)] * bond.offset(col);
     };
-    // The force of a bond is computed apart from the sum, so that bonds need not wait for each other.
+    // The force of a bond is computed separately from the sum, so that bonds need not wait for each other.
     if constexpr (Row::skips) {
       Vector<T, D> pull;
       for (int row = 0; row < D; ++row) pull[row] = stretched(row);
@@ -242,7 +242,7 @@ class ForceSweeps {
         if (bond.along(col))
           for (int row = 0; row < D; ++row) pull[row] += carried(row, col);
       for (int row = 0; row < D; ++row) force[row] += w * pull[row];
-    } else {  // With nothing to skip this order is faster, by an eighth in double.
+    } else {  // If no component can be skipped, this order is faster, by an eighth in double.
       for (int row = 0; row < D; ++row) {
         T pull = stretched(row);
         for (int col = 0; col < D; ++col) pull += carried(row, col);

@@ -24,19 +24,19 @@
 namespace hmps::inline HMPS_ABI {
 
 /// The internal forces of one body, evaluated together in two sweeps over its bonds: one for the deformation gradient
-/// and what depends on it, one for the sum in `Coupling`. Terms that are not named cost nothing: without a coupling
-/// term the first sweep is omitted, without a damping term velocities are not read. A term of the mean dilatation adds
-/// two sweeps with one number per bond, `mean_dilatation<2>` four; pair terms and body forces join the last sweep.
+/// and what depends on it, one for the sum in `Coupling`. Omitted terms cost nothing: without a coupling term there is
+/// no first sweep, and without a damping term velocities are not read. A term of the mean dilatation adds two sweeps
+/// with one number per bond, `mean_dilatation<2>` four; pair terms and body forces join the last sweep.
 ///
 /// `internal_force` makes one. Its type can be written out, for example for a member of a class:
 ///
 ///     hmps::InternalForce<hmps::LatticeBonds<double, 3>, hmps::Elastic<hmps::MooneyRivlin<>>, hmps::Viscous> force;
 ///
-/// `ForceFunction` holds any of them, to choose one at run time.
+/// To choose a force at run time, use `ForceFunction`, which holds any of them.
 ///
 /// Refers to the bonds, which must outlive the force and may be moved (for example in a `std::vector` of bodies). Holds
 /// scratch memory, but no state: one object serves any number of states, one at a time. `restrict_to` omits what only
-/// particles with forced displacement would need.
+/// particles with a forced displacement would need.
 template <Bonds B, class... Terms>
 class InternalForce {
  public:
@@ -50,11 +50,11 @@ class InternalForce {
   static constexpr bool dilates = Sweeps::dilates, couples = Sweeps::couples, damps = Sweeps::damps;
 
  public:
-  /// Throws `InputError` for bonds without particles and if a term refuses them, for example because it holds a view of
-  /// the wrong size.
+  /// Throws `InputError` for bonds without particles, or if a term rejects the bonds, for example because it holds a
+  /// view of the wrong size.
   explicit InternalForce(const B& bonds, Terms... terms)
       : followed_(bonds), bonds_(&bonds), sweeps_(bonds, std::move(terms)...) {
-    // Not before: a law may be of a class that is complete only when a force is made.
+    // Not earlier: the class of a law may be complete only when a force is made.
     static_assert((detail::RequireTerm<Terms, K, D>::value && ...));
   }
 
@@ -67,8 +67,8 @@ class InternalForce {
   void restrict_to(Moves&& moves) {
     bonds_ = &bonds();
     if constexpr (requires { moves.scene_size(); })
-      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set `moves` of restrict_to is one of ",
-                      moves.scene_size(), " particles, the body has ", bonds_->size(),
+      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set `moves` of restrict_to is for a scene of ",
+                      moves.scene_size(), " particles, but the body has ", bonds_->size(),
                       "; make it for all particles of the body");
     restricted_.restrict_to(*bonds_, moves, Sweeps::means);
   }
@@ -92,7 +92,7 @@ class InternalForce {
   }
 
   /// ADDS the force density (N/m3) of every particle to `f`, for example as a second force on the same particles.
-  /// Throws as the call that writes does.
+  /// Throws as the call operator does.
   template <class X, class V, class F, Executor E = Serial>
   void add(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const E& execute = {}) {
     require_forces(x, v, f);
@@ -114,7 +114,7 @@ class InternalForce {
     require_sizes(x, v);
     require_apart(v, "velocities", x, "positions");
     detail::require_step(dt);
-    // Other blocks read the staged copy of the velocities, so these may change meanwhile.
+    // Other blocks read the staged copy of the velocities, so the originals may change meanwhile.
     evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
       detail::deliver(*bonds_, block, v, force, [&](V& velocity, K density, std::size_t i) HMPS_INLINE_LAMBDA {
         detail::kick(velocity, density, at_particle(rho, i), dt);
@@ -124,14 +124,13 @@ class InternalForce {
 
   /// The energies of the terms at positions `x` (m), in J; the force is minus the gradient of their sum. With a law and
   /// `mean_dilatation` together, each has the energy of its own bulk modulus. Summed in double, in an order that does
-  /// not depend on the executor. For diagnostics, not for every step. Ignores `restrict_to`: always the energy of all
-  /// particles.
+  /// not depend on the executor. For diagnostics, not for every step. Ignores `restrict_to`: it is always the energy of
+  /// all particles.
   ///
   /// @param volume  of a particle in the reference configuration in m^D, l0^D on a lattice: a number, a view or a
   ///                callable
-  /// Throws `InputError` for views of the wrong size and a volume that is not positive or not that of a particle
-  /// between these bonds. A term of your own needs an
-  /// energy of its own: see `ParticleState`.
+  /// Throws `InputError` for views of the wrong size, and for a volume that is not positive or cannot be that of a
+  /// particle with these bonds. A term of your own needs its own energy: see `ParticleState`.
   template <class X, PerParticle Vol, Executor E = Serial>
   [[nodiscard]] ForceEnergy<sizeof...(Terms)> energy(const VectorView<X, D>& x, const Vol& volume,
                                                      const E& execute = {}) const {
@@ -150,7 +149,8 @@ class InternalForce {
   [[nodiscard]] std::size_t bytes() const { return sweeps_.bytes() + restricted_.bytes(); }
 
  private:
-  /// Throws `InputError` for a volume that cannot be that of a particle between these bonds, as a length in its place.
+  /// Throws `InputError` for a volume that cannot be that of a particle with these bonds, such as a length in its
+  /// place.
   static void require_volume(const B& bonds, double volume) {
     constexpr double most = 100;
     const double length = std::sqrt(bonds.standard_lambda()), share = volume / std::pow(length, D);
@@ -203,10 +203,10 @@ template <Bonds B, class... Terms>
 [[nodiscard]] InternalForce<B, Terms...> internal_force(const B& bonds, Terms... terms) {
   return InternalForce<B, Terms...>(bonds, std::move(terms)...);
 }
-/// Reports a type that does not model `Bonds` by name.
+/// Reports by name a type that does not model `Bonds`.
 template <class B, class... Terms>
 requires(!Bonds<B>) detail::RequireBonds<B> internal_force(const B& bonds, Terms... terms);
-/// The force refers to the bonds, which must outlive it.
+/// Deleted for temporary bonds: the force refers to the bonds, which must outlive it.
 template <Bonds B, class... Terms>
 void internal_force(const B&& bonds, Terms... terms) = delete;
 

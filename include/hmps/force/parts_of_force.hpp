@@ -50,7 +50,7 @@ struct PartsOfForce {
 };
 
 /// Throws `InputError` if the tension of `term` in a bond stretched by a thousandth is not finite, or, for bonds that
-/// know the volumes of particles, not in proportion to the weight, which carries them.
+/// know the volumes of their particles, not proportional to the weight, which contains the volumes.
 template <class Term, Bonds B>
 HMPS_COLD void require_tensions(const Term& term, const B& bonds) {
   using K = typename B::Scalar;
@@ -77,8 +77,8 @@ HMPS_COLD void require_tensions(const Term& term, const B& bonds) {
         require(std::abs(twice.lane[l] - 2 * tension.lane[l]) <= K(1e-3) * std::abs(tension.lane[l]),
                 "hmps: a pair term pulls particle ", i, " by ", tension.lane[l], " N/m3 along a bond, and by ",
                 twice.lane[l],
-                " N/m3 along one of twice the weight; these bonds know the volumes of their particles, so that the "
-                "tension must be in proportion to bond.weight()");
+                " N/m3 along one of twice the weight; these bonds know the volumes of their particles, so the "
+                "tension must be proportional to bond.weight()");
       }
     });
 }

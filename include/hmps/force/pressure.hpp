@@ -29,9 +29,9 @@ namespace hmps::inline HMPS_ABI {
 ///     f_i = - p J F^-T b_i = - p cof(F_i) b_i
 ///
 /// (Nanson's formula), so that a body under uniform pressure is in exact equilibrium. The area of a face is distributed
-/// over all particles within the effective radius of it, two layers with that of \paper{8}, and adds up to the area of
-/// the face. A particle near an edge has the areas of both faces. In a wall of fewer than four layers the areas of its
-/// two faces fall on the same particles and cancel in part or whole: `PatchPressure` serves there.
+/// over all particles within the effective radius of it, which are two layers for the radius of \paper{8}, and adds up
+/// to the area of the face. A particle near an edge has the areas of both faces. In a wall of fewer than four layers
+/// the areas of its two faces fall on the same particles and cancel partly or completely: use `PatchPressure` there.
 template <int D>
 class Pressure {
  public:
@@ -44,9 +44,9 @@ class Pressure {
         bond_(std::sqrt(bonds.standard_lambda())),
         particles_(loaded.indices()),
         area_(particles_.size()) {
-    detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is of ",
-                    loaded.scene_size(), " particles but the bonds are of ", size_, "; make both of the same scene");
-    double largest = 0, least = 0;  // |b| of a face is of the order of one over the length of a bond
+    detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is for a scene of ",
+                    loaded.scene_size(), " particles but the bonds are for ", size_, "; make both for the same scene");
+    double largest = 0, least = 0;  // |b| at a face is of the order of one over the length of a bond
     for (std::size_t k = 0; k < particles_.size(); ++k) {
       area_[k] = area_per_volume(bonds, particles_[k]);
       bonds.for_each_bond(particles_[k], [&](std::size_t, const auto& r0, auto) {
@@ -61,7 +61,7 @@ class Pressure {
 
   /// Adds the force density (N/m3) of the pressure `p` (Pa, positive if it pushes inwards) at the deformation gradients
   /// `F` to `f`. Throws `InputError` for views of the wrong size, a pressure that is not finite, and a deformation
-  /// gradient that is zero, which means that nothing has written it.
+  /// gradient that is zero because nothing has written it.
   template <class M, class T, Executor E = Serial>
   void add(const MatrixView<M, D>& F, const VectorView<T, D>& f, double p, const E& execute = {}) const {
     require_size(F, size_, "deformation gradients");
@@ -79,9 +79,9 @@ class Pressure {
     });
   }
 
-  /// The outward area vector of the loaded particles in the reference configuration in m2 (in two dimensions m), where
-  /// each has `volume` (m^D): for a plane face its area along its normal, for a closed surface zero. Throws
-  /// `InputError` for a volume that cannot be that of a particle between these bonds.
+  /// The outward area vector of the loaded particles in the reference configuration, in m2 (in two dimensions m), if
+  /// each has the volume `volume` (m^D): for a plane face its area along its normal, for a closed surface zero. Throws
+  /// `InputError` for a volume that cannot be that of a particle with these bonds.
   [[nodiscard]] Vector<double, D> area(double volume) const {
     constexpr double most = 100;
     const double share = volume / std::pow(bond_, D);
@@ -105,10 +105,11 @@ class Pressure {
     });
     return area;
   }
-  /// How far the body reaches behind particle `i`, against `outward` (a unit vector), in m: up to `steps` bonds.
+  /// How far in m the body extends behind particle `i`, against `outward` (a unit vector), followed over up to `steps`
+  /// bonds.
   template <Bonds B>
   [[nodiscard]] static double depth_behind(const B& bonds, std::size_t i, const Vector<double, D>& outward, int steps) {
-    constexpr double astray = 0.3;  // what a metre beside the straight line counts
+    constexpr double astray = 0.3;  // penalty per metre of distance from the straight line
     Vector<double, D> way = Vector<double, D>::Zero();
     for (int step = 0; step < steps; ++step) {
       double best = -way.dot(outward) - astray * (way - way.dot(outward) * outward).norm();
@@ -125,9 +126,9 @@ class Pressure {
     }
     return -way.dot(outward);
   }
-  /// Throws `InputError` where the body has fewer than four layers behind a face: its area lies in the two outermost
-  /// ones, and that of the opposite face in the two on the other side. Layers of fitted walls are closer or wider than
-  /// a spacing: to be safe, four that lie closer are refused too.
+  /// Throws `InputError` if the body has fewer than four layers behind a face: the area of the face lies in the two
+  /// outermost layers, and that of the opposite face in the two on the other side. Layers of fitted walls may be closer
+  /// or wider apart than a spacing: to be safe, four layers that lie closer are rejected too.
   template <Bonds B>
   void require_thick(const B& bonds, double largest) const {
     double spacing = 0;  // mean distance of the nearest neighbours
@@ -145,7 +146,7 @@ class Pressure {
       detail::require(depth > 2.85 * spacing, "hmps: the body reaches only ", depth, " m behind particle ",
                       particles_[k],
                       " under pressure, about three layers or fewer: the areas of the two faces of such a "
-                      "wall fall on the same particles and cancel; load it by PatchPressure, or give it more layers");
+                      "wall fall on the same particles and cancel; load it with PatchPressure, or give it more layers");
     }
   }
 

@@ -14,7 +14,8 @@ namespace hmps::inline HMPS_ABI::detail {
 template <Bonds B>
 class RestrictedBlocks {
  public:
-  /// From now on, visits only what the particles with `moves(i)` need. `means`: how often the mean dilatation is taken.
+  /// From now on, visits only what the particles with `moves(i)` need. `means` is how often the mean dilatation is
+  /// taken.
   template <class Moves>
   void restrict_to(const B& bonds, Moves&& moves, int means) {
     std::vector<char> moving(bonds.size());
@@ -22,7 +23,7 @@ class RestrictedBlocks {
     summed_ = blocks_of(bonds, moving);
     with_neighbours(bonds, moving);
     coupled_ = blocks_of(bonds, moving);
-    if (means > 0) {  // the pressure depends on neighbours, and the dilatation behind it on theirs
+    if (means > 0) {  // the pressure depends on neighbours, and their dilatation on their neighbours
       for (int ring = 0; ring < 2 * means; ++ring) with_neighbours(bonds, moving);
       dilated_ = blocks_of(bonds, moving);
     }

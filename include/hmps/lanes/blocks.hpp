@@ -64,15 +64,15 @@ class Blocks : public detail::Anchored {
     return K(1) / shape_(inverse_trace, shape_slot(slot_of_[particle]));
   }
 
-  /// Displacements are rounded to `K` after that of one particle was subtracted, in the middle of the order of the
-  /// sweeps: `particle(size() / 2)`. From now on `common` (m) is subtracted instead, so that parts of a body, each on a
-  /// machine of its own, round as the whole does. Throws `InputError` if it is not finite.
+  /// Before displacements are rounded to `K`, the sweeps subtract the displacement of one particle in the middle of
+  /// their order, `particle(size() / 2)`. After this call they subtract `common` (m) instead, so that the parts of a
+  /// body, each on its own machine, round as the whole does. Throws `InputError` if `common` is not finite.
   void subtract_displacement(const Vector<double, D>& common) {
     detail::require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
                     ") m; give finite numbers");
     common_ = common;
   }
-  /// What `subtract_displacement` was given, if it was called.
+  /// The argument of `subtract_displacement`, if it was called.
   [[nodiscard]] const std::optional<Vector<double, D>>& subtracted_displacement() const { return common_; }
 
   /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}). `LatticeBonds` takes those
@@ -86,7 +86,7 @@ class Blocks : public detail::Anchored {
            reference_.bytes() + shape_.bytes();
   }
 
-  // The sweeps read what follows, one block of lanes at a time.
+  // The sweeps read the following, one block of lanes at a time.
 
   [[nodiscard]] HMPS_INLINE Matrix<Lanes<K>, D> shape_inverse_lanes(std::size_t block) const {
     Matrix<Lanes<K>, D> inverse;

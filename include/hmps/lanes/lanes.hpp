@@ -50,7 +50,7 @@ struct alignas(detail::lanes_bytes) Lanes {
   }
 };
 
-/// The result of comparing `Lanes<T>`: in each lane all bits are set, or none.
+/// The result of comparing `Lanes<T>`: each lane has either all bits set or none.
 template <class T>
 struct alignas(detail::lanes_bytes) LaneMask {
   typename Lanes<T>::Bits lane[static_cast<std::size_t>(Lanes<T>::width)];
@@ -193,7 +193,7 @@ template <class T>
 
 }  // namespace hmps::inline HMPS_ABI
 
-/// Lanes are numbers to Eigen.
+/// Tells Eigen that lanes are numbers.
 template <class T>
 struct Eigen::NumTraits<hmps::Lanes<T>> : Eigen::GenericNumTraits<hmps::Lanes<T>> {
   using Real = hmps::Lanes<T>;
@@ -211,7 +211,7 @@ struct Eigen::NumTraits<hmps::Lanes<T>> : Eigen::GenericNumTraits<hmps::Lanes<T>
   };
 };
 
-/// Arrays of lanes are aligned as lanes are; Eigen need not, and must not, ask for less.
+/// Arrays of lanes have the alignment of lanes. Eigen need not request an alignment, and must not request a lower one.
 template <class T, int Size>
 struct Eigen::internal::compute_default_alignment<hmps::Lanes<T>, Size> {
   enum { value = 0 };

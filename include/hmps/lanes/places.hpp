@@ -19,8 +19,8 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// Reference positions from which the sweeps compute r0 of a bond. The result is antisymmetric in the two ends and
 /// correct to the rounding of `K`, however large the body. In double, the positions themselves are stored. In float,
-/// each position is an integer multiple of 2^-30 of the bond radius (rounded up to a power of two), of which the lowest
-/// 32 bits are stored: differences are exact if they are shorter than that radius.
+/// each position is rounded to an integer multiple of 2^-30 of the bond radius (rounded up to a power of two), and the
+/// lowest 32 bits of that integer are stored: differences shorter than that radius are exact.
 template <class K, int D>
 class Places {
   static constexpr bool fixed = std::is_same_v<K, float>;

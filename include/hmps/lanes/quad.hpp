@@ -48,15 +48,15 @@ struct QuadOf {
 template <class S>
 using Quad = typename QuadOf<S>::Type;
 
-/// `v` in `quad`, zeros behind it.
+/// Sets `quad` to the components of `v`, followed by zeros.
 template <class S, class Derived>
 HMPS_INLINE void spread(const Eigen::MatrixBase<Derived>& v, Quad<S>& quad) {
   quad = Quad<S>{};
   for (int c = 0; c < v.size(); ++c) quad[static_cast<std::size_t>(c)] = v[c];
 }
 
-/// The smaller of `s` and 1; sets `quad` to zero where `s` is not below 1. The outcome is unpredictable, so the code
-/// must not branch. Compilers do branch on a selection of one number, but not of four.
+/// The smaller of `s` and 1; sets `quad` to zero if `s` is not below 1. The outcome is unpredictable, so the code must
+/// not branch. Compilers turn a selection of one number into a branch, but not a selection of four.
 template <class S>
 [[nodiscard]] HMPS_INLINE S cut_at_one(S s, Quad<S>& quad) {
 #if defined(__GNUC__) || defined(__clang__)

@@ -13,7 +13,7 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// Bytes of all lanes: the size of the largest vector registers in use today.
 inline constexpr std::size_t lanes_bytes = 64;
-/// The integer type of the size of `T`, used for masks.
+/// The integer type with the size of `T`, used for masks.
 template <class T>
 using BitsOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
@@ -25,7 +25,7 @@ using BitsOf = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 #else
 #define HMPS_REGISTER_BYTES 16
 #endif
-/// The lanes in one register of the target's instruction set. Never pass a register to another function: its calling
+/// The lanes in one register of the target's instruction set. Never pass a register to another function: the calling
 /// convention depends on compiler flags.
 template <class T, std::size_t bytes = HMPS_REGISTER_BYTES>
 struct Register {

@@ -29,15 +29,15 @@ HMPS_INLINE void prefetch_particles(const Blocks<K, D>& blocks, std::size_t bloc
   }
 }
 
-/// Copies `view` of the particles of `block` into `slots`, converted to the scalar type of the sweeps. `value(number,
-/// slot, component)` transforms each number on the way.
+/// Copies the entries of `view` for the particles of `block` into `slots`, converted to the scalar type of the sweeps.
+/// `value(number, slot, component)` transforms each number on the way.
 template <class K, int D, class T, class Slots, class Value>
 HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& view, Slots& slots,
                        Value&& value) {
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
   const bool consecutive = blocks.consecutive(block);
-  // A block is copied within less than the delay of the memory.
+  // Copying one block takes less time than the memory needs, hence two blocks ahead.
   if (!consecutive) prefetch_particles(blocks, block + 2, view);
   for (int c = 0; c < D; ++c) {
     const auto component = static_cast<std::size_t>(c);
@@ -64,8 +64,9 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
 }
 
-/// The displacement (m) that is subtracted from all particles: that of the particle in the middle of the sweep order,
-/// zero if it is not finite; or the argument of `Blocks::subtract_displacement`.
+/// The displacement (m) that is subtracted from all particles: the argument of `Blocks::subtract_displacement` if there
+/// is one, otherwise the displacement of the particle in the middle of the sweep order, with components that are not
+/// finite set to zero.
 template <class K, int D, class T>
 [[nodiscard]] Vector<double, D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
   if (blocks.subtracted_displacement()) return *blocks.subtracted_displacement();
@@ -91,14 +92,14 @@ HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t bloc
 }
 
 /// Writes `N` numbers per particle of `block` to the user's `view`. `lanes(component)` returns the numbers; `put(entry,
-/// number, particle)` stores one of them.
+/// number, particle)` stores one of them in the view.
 template <class K, int D, class T, int N, class Component, class Put>
 HMPS_INLINE void deliver(const Blocks<K, D>& blocks, std::size_t block, const View<T, N>& view, Component&& lanes,
                          Put&& put) {
   constexpr std::size_t width = Blocks<K, D>::width;
   const std::size_t first = block * width;
   const bool consecutive = blocks.consecutive(block) && view.stride() == static_cast<std::ptrdiff_t>(sizeof(T));
-  // The sums of the next block take longer than the memory does.
+  // Summing the next block takes longer than the memory needs, hence one block ahead.
   if (!blocks.consecutive(block)) prefetch_particles(blocks, block + 1, view);
   for (int c = 0; c < N; ++c) {
     const Lanes<K> numbers = lanes(c);

@@ -28,16 +28,16 @@ template <int D, class V>
   constexpr double most = 8;
   const double mean = size > 0 ? sum / static_cast<double>(size) : 1;
   require(mean < most && mean > 1 / most, "hmps: the volumes are ", mean * cell, " m", D,
-          " in the mean, but the cube of the spacing of ", l0, " m has ", cell, " m", D,
-          "; give both in metres, and the spacing of these particles");
+          " on average, but the cube of the spacing of ", l0, " m has ", cell, " m", D,
+          "; give both in metres, and the spacing that belongs to these particles");
   constexpr double largest = 64;
   for (std::size_t i = 0; i < size; ++i)
     require(shares[i] < largest, "hmps: the volume of particle ", i, " is ", volumes[i], " m", D, ", ", shares[i],
-            " times the cube of the spacing of ", l0, " m; give the volume of each particle by itself");
+            " times the cube of the spacing of ", l0, " m; give the volume of each single particle");
   return shares;
 }
 
-/// The same for the slots of bonds; nothing is stored where all particles stand for the same volume.
+/// V / l0^D of the particles by slot of the bonds; stores nothing if no volumes were given.
 template <class K>
 class VolumeShares {
  public:
@@ -64,7 +64,7 @@ class VolumeShares {
   std::vector<Lanes<K>> shares_;
 };
 
-/// V / l0^D of the particles of a block, 1 for bonds that know no volumes.
+/// V / l0^D of the particles of a block; 1 for bonds without volumes.
 template <class B>
 [[nodiscard]] HMPS_INLINE Lanes<typename B::Scalar> volume_share_lanes(const B& bonds, std::size_t block) {
   using T = Lanes<typename B::Scalar>;
@@ -73,7 +73,7 @@ template <class B>
   else
     return T(typename B::Scalar(1));
 }
-/// The same of one particle.
+/// The same for one particle.
 template <class B>
 [[nodiscard]] double volume_share(const B& bonds, std::size_t i) {
   if constexpr (requires { double(bonds.volume_share(i)); })

@@ -20,14 +20,14 @@ struct LawCheckSettings {
   bool prestressed = false;  ///< Whether the law may have a stress at F = 1, as active or growing tissue has.
 };
 
-/// Checks a law of your own, in a test or once before a run: whether its stress is the derivative of its energy,
-/// P = dW/dF (\paper{7, 14}), at twelve deformations, and zero at F = 1. The force of a law that fails the first is not
-/// conservative; one that fails the second deforms the body before any load.
+/// Checks a law of your own, in a test or once before a run: its stress must be the derivative of its energy, P = dW/dF
+/// (\paper{7, 14}), at twelve deformations, and zero at F = 1. If the first fails, the force is not conservative; if
+/// the second fails, the law deforms the body before any load.
 ///
 ///     hmps::check_law(law);     // in three dimensions
 ///     hmps::check_law<2>(law);  // in plane strain
 ///
-/// Throws `InputError` with F, the stress and the derivative if it does not hold, or is not finite.
+/// Throws `InputError`, with F, the stress and the derivative, if either fails or a value is not finite.
 template <int D = 3, class Law>
 void check_law(const Law& law, const LawCheckSettings& settings = {}) {
   using Tensor = Matrix<double, D>;
@@ -37,7 +37,7 @@ void check_law(const Law& law, const LawCheckSettings& settings = {}) {
       "is a law of the deformation gradient");
   detail::require(settings.strain > 0 && settings.strain <= 0.25 && settings.tolerance > 0,
                   "hmps: check_law was given a strain of ", settings.strain, " and a tolerance of ", settings.tolerance,
-                  "; the first must lie above 0 and at most at 0.25, the second above 0");
+                  "; the first must be above 0 and at most 0.25, the second above 0");
   const auto stress = [&](const Tensor& F) { return first_piola_kirchhoff<Law, double, D>(law, F); };
   const auto energy = [&](const Tensor& F) { return energy_density<Law, double, D>(law, F); };
 
@@ -47,7 +47,7 @@ void check_law(const Law& law, const LawCheckSettings& settings = {}) {
     for (int k = 0; k < D * D; ++k)  // scattered evenly: multiples of the golden section
       F(k % D, k / D) += settings.strain * std::remainder((sample * D * D + k) * 1.2360679774997898, 2.0);
     for (int k = 0; k < D * D; ++k) {
-      constexpr double h = 1e-4;  // fourth order: exact to 1e-11 or so, rounding included
+      constexpr double h = 1e-4;  // fourth order: exact to about 1e-11, rounding included
       const auto at = [&](double by) {
         Tensor moved = F;
         moved(k % D, k / D) += by;
@@ -61,13 +61,13 @@ void check_law(const Law& law, const LawCheckSettings& settings = {}) {
                         (P - slope).norm() <= settings.tolerance * std::max(P.norm(), slope.norm()),
                     "hmps: the stress of the law is not the derivative of its energy: at F = (by columns) ", F,
                     " P is ", P, " Pa, but dW/dF is ", slope,
-                    " Pa; look for a factor in the formulas (S is 2 dW/dC), or a term that only one of them has");
+                    " Pa; check the formulas for a wrong factor (S is 2 dW/dC), or a term that only one of them has");
   }
   const Tensor rest = stress(Tensor::Identity());
   detail::require(detail::all_finite(rest) && (settings.prestressed || rest.norm() <= settings.tolerance * largest),
                   "hmps: the law has the stress P = (by columns) ", rest,
                   " Pa at F = 1, so that a body deforms before any load; in two dimensions I1 is first_invariant(C), "
-                  "which counts C33 = 1, not trace(C). If it is meant, set LawCheckSettings::prestressed");
+                  "which counts C33 = 1, not trace(C). If the stress is intended, set LawCheckSettings::prestressed");
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -19,11 +19,12 @@ concept ContinuableLaw = requires(const Law& law, double J) {
 /// `law` with a continuation below J = `j_min`. Optional, and a departure from the paper, whose J^(-2/3) is undefined
 /// for the crushed and inverted particles of a hard squeeze.
 ///
-/// For J >= `j_min` stress and energy are those of `law` to the last bit. Below, the factors g1 and g2 of W = g1(J) I1
-/// + g2(J) I2 + h(J) continue along their tangents at `j_min` and h along its parabola, which for the laws of the
-/// library is h itself. W is thus finite for every F, also for J <= 0, and grows as J falls: the force pushes the
-/// particle back towards J > 0. Energy and stress are continuous at `j_min`, and the stress is the derivative of the
-/// energy everywhere, so energy is conserved. Below `j_min` the material is never stiffer in J than at `j_min`.
+/// For J >= `j_min` stress and energy are those of `law` to the last bit. Below `j_min`, the factors g1 and g2 of W =
+/// g1(J) I1 + g2(J) I2 + h(J) continue along their tangents at `j_min`, and h along its osculating parabola, which for
+/// the laws of the library is h itself. Thus W is finite for every F, even for J <= 0, and grows as J falls: the force
+/// pushes the particle back towards J > 0. Energy and stress are continuous at `j_min`, and the stress is the
+/// derivative of the energy everywhere, so energy is conserved. Below `j_min` the material is never stiffer in J than
+/// at `j_min`.
 ///
 /// A small `j_min` leaves more of the law unchanged, but the isochoric stiffness grows like J^(-8/3) down to `j_min`,
 /// and the stable time step shrinks accordingly.

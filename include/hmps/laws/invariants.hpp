@@ -7,7 +7,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The first invariant I1 of the right Cauchy-Green tensor `C`. In two dimensions, plane strain, C33 = 1 is part of it,
+/// The first invariant I1 of the right Cauchy-Green tensor `C`. In two dimensions (plane strain) it includes C33 = 1,
 /// which `trace(C)` omits.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE T first_invariant(const Matrix<T, D>& C) {
@@ -18,8 +18,8 @@ template <class T, int D>
   }
 }
 
-/// The second invariant I2 of `C` from its cofactor matrix `K`, which is `symmetric_cofactor(C)`. In two dimensions,
-/// plane strain, the cofactor of C33 = 1 is the determinant of the in-plane part, and the other two are C22 and C11.
+/// The second invariant I2 of `C` from its cofactor matrix `K`, which is `symmetric_cofactor(C)`. In two dimensions
+/// (plane strain), the cofactor of C33 = 1 is the determinant of the in-plane part, and the other two are C22 and C11.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE T second_invariant(const Matrix<T, D>& C, const Matrix<T, D>& K) {
   if constexpr (D == 2) {
@@ -31,8 +31,7 @@ template <class T, int D>
 
 namespace detail {
 
-/// The symmetric tensor `unit` I - `linear` C + `cofactors` K, the shape of S in every law of the
-/// invariants.
+/// The symmetric tensor `unit` I - `linear` C + `cofactors` K, the form of S in every law of the invariants.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE Matrix<T, D> combine(const Matrix<T, D>& C, const Matrix<T, D>& K, const T& unit,
                                                const T& linear, const T& cofactors) {
@@ -44,14 +43,14 @@ template <class T, int D>
   return S;
 }
 
-/// tr(M) / det(M)^(1/3) - 3 for a symmetric positive M given with `root` = det(M)^(-1/3), without the
-/// cancellation near the unit tensor: with the deviator d of M,
+/// tr(M) / det(M)^(1/3) - 3 for a symmetric positive M given with `root` = det(M)^(-1/3), without cancellation near the
+/// unit tensor: with the deviator d of M,
 /// tr^3 - 27 det = 9 tr (d : d) / 2 - 27 det d, and y^3 - 27 = (y - 3) (y^2 + 3 y + 9).
 template <class T>
 [[nodiscard]] T isochoric_excess(const Matrix<T, 3>& M, const T& root) {
   const T tr = trace(M), mean = tr * T(1.0 / 3.0);
   Matrix<T, 3> d = M;
-  // Uses differences of the diagonal, so that a common part cancels before rounding.
+  // Differences of the diagonal, so that a common part cancels before rounding.
   d(0, 0) = ((M(0, 0) - M(1, 1)) + (M(0, 0) - M(2, 2))) * T(1.0 / 3.0);
   d(1, 1) = ((M(1, 1) - M(0, 0)) + (M(1, 1) - M(2, 2))) * T(1.0 / 3.0);
   d(2, 2) = ((M(2, 2) - M(0, 0)) + (M(2, 2) - M(1, 1))) * T(1.0 / 3.0);
@@ -60,7 +59,7 @@ template <class T>
   return cubic * (root * root * root) / (y * y + T(3) * y + T(9));
 }
 
-/// `M` as the tensor of three dimensions whose out-of-plane component is `out_of_plane`.
+/// `M` as a three-dimensional tensor with the out-of-plane component `out_of_plane`.
 template <class T, int D>
 [[nodiscard]] Matrix<T, 3> in_space(const Matrix<T, D>& M, const T& out_of_plane) {
   if constexpr (D == 3) {
@@ -92,8 +91,8 @@ template <class T, int D>
   return isochoric_excess<T>(symmetric_cofactor(in_space(C, T(1))), a * a);
 }
 
-/// A law of the form W = g1(J) I1 + g2(J) I2 + h(J): its factors and their derivatives at one J, of
-/// h up to the second.
+/// The factors of a law of the form W = g1(J) I1 + g2(J) I2 + h(J) and their first derivatives at one J, and the second
+/// derivative of h.
 template <class T>
 struct InvariantFactors {
   T first;                 ///< g1

@@ -27,10 +27,10 @@ concept TensorLike = std::same_as<typename std::remove_cvref_t<M>::Scalar, T> &&
 /// |---|---|
 /// | `law.second_piola_kirchhoff(C, J)` | the second Piola-Kirchhoff stress S in Pa, symmetric |
 ///
-/// `C` is the right Cauchy-Green tensor F^T F and `J` is det F with its sign, which `C` alone no
-/// longer knows. For `D = 2` both belong to plane strain (F33 = 1). Satisfied by `MooneyRivlin`,
-/// `NeoHookean` and `SaintVenantKirchhoff`, or by any small struct of the user's. A law that is a
-/// template over `T` with only + - * / on values of `T` also runs on packs of lanes.
+/// `C` is the right Cauchy-Green tensor F^T F and `J` is det F with its sign, which `C` alone does not determine. For
+/// `D = 2` both are those of plane strain (F33 = 1). Satisfied by `MooneyRivlin`, `NeoHookean` and
+/// `SaintVenantKirchhoff`, or by a small struct of your own. A law that is a template over `T` with only + - * / on
+/// values of `T` also runs on packs of lanes.
 template <class Law, class T = double, int D = 3>
 concept HyperelasticLaw = requires(const Law& law, const Matrix<T, D>& C, const T& J) {
   { law.second_piola_kirchhoff(C, J) } -> detail::TensorLike<T, D>;
@@ -48,10 +48,10 @@ template <class Law, class T = double, int D = 3>
 concept ConstitutiveLaw = HyperelasticLaw<Law, T, D> || DeformationGradientLaw<Law, T, D>;
 
 namespace detail {
-/// A trait, since clang names the type in the message of one, but not of a concept.
+/// A trait, because clang names the type in the message for a trait, but not for a concept.
 template <class Law, class T, int D>
 struct IsLaw : std::bool_constant<ConstitutiveLaw<Law, T, D>> {};
-/// Fails where `Law` is none, with its name in the first line of the message.
+/// Fails to compile if `Law` is not a law; the first line of the message names it.
 template <class Law, class T, int D>
 struct RequireLaw {
   static_assert(IsLaw<Law, T, D>::value,
@@ -102,9 +102,9 @@ template <class Law, class T, int D>
   }
 }
 
-/// The speed of longitudinal waves in m/s at zero strain, sqrt((K + 4 G / 3) / rho), for a law with
-/// `bulk_modulus()` and `shear_modulus()` in Pa and a `density` in kg/m3. Throws `InputError` for a
-/// density that is not positive, and for a law whose K + 4 G / 3 is not.
+/// The speed of longitudinal waves in m/s at zero strain, sqrt((K + 4 G / 3) / rho), for a law with `bulk_modulus()`
+/// and `shear_modulus()` in Pa and a `density` in kg/m3. Throws `InputError` if the density or K + 4 G / 3 is not
+/// positive.
 template <class Law, class P>
 [[nodiscard]] auto sound_speed(const Law& law, P density) {
   static_assert(
@@ -127,12 +127,12 @@ void require_modulus(P value, const char* law, const char* name, const char* rem
           " Pa; it must be positive and finite: ", remedy);
 }
 
-/// Throws `InputError` if Poisson's ratio is below -1/2, K < G / 6, with both moduli in Pa: few materials are like
-/// that, but every soft tissue is whose moduli were interchanged.
+/// Throws `InputError` if Poisson's ratio is below -1/2, that is K < G / 6, with both moduli in Pa: this is true of few
+/// materials, but of every soft tissue whose moduli were interchanged.
 template <class P>
 void require_order(P bulk, P shear, const char* law) {
-  require(P(6) * bulk >= shear, "hmps: the bulk modulus of ", law, " is ", bulk, " Pa beside a shear modulus of ",
-          shear, " Pa, so that Poisson's ratio is ", (P(3) * bulk - P(2) * shear) / (P(6) * bulk + P(2) * shear),
+  require(P(6) * bulk >= shear, "hmps: the bulk modulus of ", law, " is ", bulk, " Pa with a shear modulus of ", shear,
+          " Pa, so that Poisson's ratio is ", (P(3) * bulk - P(2) * shear) / (P(6) * bulk + P(2) * shear),
           "; are the two interchanged? from_moduli takes the bulk modulus first");
 }
 

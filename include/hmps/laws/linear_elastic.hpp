@@ -13,7 +13,7 @@ namespace hmps::inline HMPS_ABI {
 ///     W = lambda / 2 (tr e)^2 + mu e : e,    dW/dF = lambda tr(e) I + 2 mu e
 ///
 /// for small strains and rotations, and for comparison with linear theory: a finite rotation causes strain. It is a law
-/// of the deformation gradient, because C does not contain the rotation. In two dimensions, plane strain.
+/// of the deformation gradient, because C does not contain the rotation. Two dimensions are plane strain.
 template <class P = double>
 struct LinearElastic {
   P lambda;  ///< first Lame constant in Pa
@@ -32,7 +32,7 @@ struct LinearElastic {
   [[nodiscard]] P bulk_modulus() const { return lambda + mu * P(2) / P(3); }
   [[nodiscard]] P shear_modulus() const { return mu; }
 
-  /// Throws `InputError` unless bulk and shear modulus are positive and finite, and if Poisson's ratio is below -1/2.
+  /// Throws `InputError` if the bulk or shear modulus is not positive and finite, or if Poisson's ratio is below -1/2.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(mu, "LinearElastic", "shear modulus mu", "from_young needs E > 0 and Poisson's ratio > -1");
     detail::require_modulus(bulk_modulus(), "LinearElastic", "bulk modulus lambda + 2 mu / 3",

@@ -20,27 +20,26 @@ namespace hmps::inline HMPS_ABI {
 /// The bulk modulus at zero strain is 2 D1, though section 3.7 of the paper calls D1 itself the bulk
 /// modulus; `d1` is the D1 of \paper{15}, so the paper's tissue has `d1 = 1e6` and K = 2 MPa.
 ///
-/// `J` must be positive (see `Continued` for what else can be done). Rounding: with the relative
-/// precision eps of T the stress carries an error of about eps * 2 D1, which comes from the rounding of F itself, so
-/// that no formula in F can avoid it; the shear part adds eps * 2 (C1 + C2). The energy is
-/// evaluated without cancellation, to a few eps of its shear part.
+/// `J` must be positive (`Continued` extends the law to J <= 0). Rounding: with the relative precision eps of T the
+/// stress has an error of about eps * 2 D1, which comes from the rounding of F itself, so no formula in F can avoid it;
+/// the shear part adds eps * 2 (C1 + C2). The energy is evaluated without cancellation, to a few eps of its shear part.
 ///
-/// `P` is the type of the parameters, a scalar, or a pack of lanes with one material per particle.
+/// `P` is the type of the parameters: a scalar, or a pack of lanes with one material per particle.
 template <class P = double>
 struct MooneyRivlin {
   P c1;  ///< C1 in Pa
   P c2;  ///< C2 in Pa
   P d1;  ///< D1 in Pa, half the bulk modulus
 
-  /// The law with Young's modulus `young` in Pa at zero strain by \paper{18}, E = 6 (C1 + C2), the
-  /// volumetric constant `d1` in Pa and the `ratio` C1 / C2 (the paper: 1). The second number of the
-  /// other laws' `from_young` is Poisson's ratio: `from_young_poisson` means the same in all.
+  /// The law with Young's modulus `young` in Pa at zero strain by \paper{18}, E = 6 (C1 + C2), the volumetric constant
+  /// `d1` in Pa and the `ratio` C1 / C2 (the paper: 1). Note that the second argument of `from_young` of the other laws
+  /// is Poisson's ratio; `from_young_poisson` means the same in all laws.
   [[nodiscard]] static MooneyRivlin from_young(P young, P d1, P ratio = P(1)) {
     const P c2 = young / (P(6) * (P(1) + ratio));
     return {ratio * c2, c2, d1};
   }
-  /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson` at zero strain, both exact
-  /// (E = 9 K G / (3 K + G), not that of \paper{18}), and the `ratio` C1 / C2.
+  /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson` at zero strain, both exact (E = 9 K G /
+  /// (3 K + G), not \paper{18}), and the `ratio` C1 / C2.
   [[nodiscard]] static MooneyRivlin from_young_poisson(P young, P poisson, P ratio = P(1)) {
     return from_moduli(young / (P(3) * (P(1) - P(2) * poisson)), young / (P(2) * (P(1) + poisson)), ratio);
   }
@@ -50,28 +49,28 @@ struct MooneyRivlin {
     return {ratio * c2, c2, bulk / P(2)};
   }
 
-  /// Young's modulus in Pa at zero strain by \paper{18}; exact for an incompressible material. The
-  /// exact one at finite bulk modulus, 9 K G / (3 K + G), is smaller by G / (3 K), 0.1 % for the paper's tissue.
+  /// Young's modulus in Pa at zero strain by \paper{18}; exact for an incompressible material. The exact value at a
+  /// finite bulk modulus, 9 K G / (3 K + G), is smaller by the fraction G / (3 K), 0.1 % for the paper's tissue.
   [[nodiscard]] P young() const { return P(6) * (c1 + c2); }
   /// The bulk modulus in Pa at zero strain, 2 D1.
   [[nodiscard]] P bulk_modulus() const { return P(2) * d1; }
   /// The shear modulus in Pa at zero strain, 2 (C1 + C2).
   [[nodiscard]] P shear_modulus() const { return P(2) * (c1 + c2); }
 
-  /// Throws `InputError` unless C1 + C2 and D1 are positive and finite, and where the bulk modulus 2 D1 is so small
-  /// against the shear modulus that Poisson's ratio is negative: no tissue is like that, but a D1 that is Poisson's
-  /// ratio, in MPa, or 2 / K as other programs have it. One of C1, C2 may be negative, as it comes out of some fits.
+  /// Throws `InputError` if C1 + C2 or D1 is not positive and finite, or if the bulk modulus 2 D1 is so small compared
+  /// with the shear modulus that Poisson's ratio is negative. No tissue is like that; the cause is a D1 that is
+  /// Poisson's ratio, is in MPa, or is 2 / K as in other programs. One of C1, C2 may be negative, as some fits give it.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(shear_modulus(), "MooneyRivlin", "shear modulus 2 (C1 + C2)",
                             "give C1 + C2 > 0, or from_young with a positive Young's modulus");
     detail::require_modulus(d1, "MooneyRivlin", "volumetric constant D1",
                             "give half of the bulk modulus, for soft tissue about 1e6 Pa");
     const P K = bulk_modulus(), G = shear_modulus();
-    // A ratio of zero itself, K = 2 G / 3, may come out of rounding.
+    // Rounding must not reject a ratio of exactly zero, K = 2 G / 3.
     detail::require(
         P(3) * K >= P(2) * G * (P(1) - P(16) * std::numeric_limits<P>::epsilon()),
         "hmps: the volumetric constant D1 of MooneyRivlin is ", d1, " Pa, so that the bulk modulus 2 D1 is ", K,
-        " Pa beside a shear modulus of ", G, " Pa, and Poisson's ratio ", (P(3) * K - P(2) * G) / (P(6) * K + P(2) * G),
+        " Pa with a shear modulus of ", G, " Pa, and Poisson's ratio ", (P(3) * K - P(2) * G) / (P(6) * K + P(2) * G),
         "; give D1 in Pa, half of the bulk modulus (for soft tissue about 1e6 Pa), or use from_young_poisson");
   }
 

@@ -13,9 +13,9 @@ namespace hmps::inline HMPS_ABI {
 ///
 ///     W = mu / 2 (J^(-2/3) I1 - 3) + kappa / 2 (J - 1)^2
 ///
-/// which is `MooneyRivlin` with C1 = mu / 2, C2 = 0, D1 = kappa / 2, cheaper by the second invariant.
-/// Other neo-Hookean laws in use differ in the volumetric part (for example -mu ln J + lambda / 2 ln^2 J) and agree
-/// with this one at small strain only. Two dimensions are plane strain. `J` must be positive.
+/// which is `MooneyRivlin` with C1 = mu / 2, C2 = 0, D1 = kappa / 2, without the cost of the second invariant. Other
+/// neo-Hookean laws in use differ in the volumetric part (for example -mu ln J + lambda / 2 ln^2 J) and agree with this
+/// one at small strain only. Two dimensions are plane strain. `J` must be positive.
 template <class P = double>
 struct NeoHookean {
   P mu;     ///< shear modulus in Pa at zero strain
@@ -33,7 +33,7 @@ struct NeoHookean {
   [[nodiscard]] P bulk_modulus() const { return kappa; }
   [[nodiscard]] P shear_modulus() const { return mu; }
 
-  /// Throws `InputError` unless both moduli are positive and finite, and if Poisson's ratio is below -1/2.
+  /// Throws `InputError` if a modulus is not positive and finite, or if Poisson's ratio is below -1/2.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(mu, "NeoHookean", "shear modulus mu", "from_young needs E > 0 and Poisson's ratio > -1");
     detail::require_modulus(kappa, "NeoHookean", "bulk modulus kappa",

@@ -35,7 +35,7 @@ struct SaintVenantKirchhoff {
   [[nodiscard]] P bulk_modulus() const { return lambda + mu * P(2) / P(3); }
   [[nodiscard]] P shear_modulus() const { return mu; }
 
-  /// Throws `InputError` unless bulk and shear modulus are positive and finite, and if Poisson's ratio is below -1/2.
+  /// Throws `InputError` if the bulk or shear modulus is not positive and finite, or if Poisson's ratio is below -1/2.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(mu, "SaintVenantKirchhoff", "shear modulus mu",
                             "from_young needs E > 0 and Poisson's ratio > -1");
@@ -44,7 +44,7 @@ struct SaintVenantKirchhoff {
     detail::require_order(bulk_modulus(), shear_modulus(), "SaintVenantKirchhoff");
   }
 
-  /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F. Does not ask for J.
+  /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F. Does not use J.
   template <class T, int D>
   [[nodiscard]] HMPS_INLINE Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T&) const {
     T strain_trace = C(0, 0) - T(1);

@@ -13,10 +13,11 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Replaces the file at `path` by `bytes`: written beside it as `path`.part, then renamed, so that a reader finds
-/// either the old file or the new one, whole, even if the program is killed on the way. Follows symbolic links. Does
-/// not wait until the disk has it: a loss of power may cost the latest files. Throws `InputError` with the name and the
-/// reason, also if `path` is there and no regular file, such as a device; the old file is then still there.
+/// Replaces the contents of the file at `path` with `bytes`: writes them beside it as `path`.part, which it then
+/// renames, so that a reader finds either the whole old file or the whole new one, even if the program is killed
+/// meanwhile. Follows symbolic links. Does not wait until the data are on the disk: a loss of power may cost the latest
+/// files. Throws `InputError` with the name and the reason, also if `path` exists and is not a regular file (a device,
+/// for example); the old file then remains.
 inline void replace_file(std::filesystem::path path, std::string_view bytes) {
   std::error_code problem;
   const std::filesystem::file_status status = std::filesystem::status(path, problem);

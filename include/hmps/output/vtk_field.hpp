@@ -17,14 +17,15 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// Numbers of a VTK file under a name: one number, vector or tensor per particle. A copy; `vtk_field` makes it.
+/// A named field of a VTK file: one number, vector or tensor per particle. Holds a copy of the numbers; `vtk_field`
+/// makes it.
 struct VtkField {
   std::string name;              ///< as ParaView shows it
   int components = 1;            ///< 1, 3 or 9
-  std::string type = "Float32";  ///< of VTK: Float32, Float64, Int32 or UInt8
-  std::string bytes;             ///< the numbers, particle after particle, in the order of bytes of this machine
+  std::string type = "Float32";  ///< VTK's name: Float32, Float64, Int32 or UInt8
+  std::string bytes;             ///< the numbers, particle after particle, in the byte order of this machine
 
-  /// How many bytes a number takes.
+  /// Number of bytes per number.
   [[nodiscard]] std::size_t width() const { return type == "Float64" ? 8 : type == "UInt8" ? 1 : 4; }
   /// The number of particles.
   [[nodiscard]] std::size_t size() const {
@@ -50,8 +51,8 @@ template <class T>
   return field;
 }
 
-/// `components` numbers per particle, number c of particle i by `at(i, c)`. Throws `InputError` for a finite number
-/// that is infinite as a `T`.
+/// A field of `components` numbers per particle; `at(i, c)` returns number c of particle i. Throws `InputError` for a
+/// finite number that would be infinite as a `T`.
 template <class T, class At>
 [[nodiscard]] VtkField collect(std::string name, std::size_t size, int components, const At& at) {
   std::vector<T> values;
@@ -61,7 +62,7 @@ template <class T, class At>
       const auto value = at(i, c);
       if constexpr (std::is_floating_point_v<T> && sizeof(value) > sizeof(T))
         require(!is_finite(value) || is_finite(static_cast<T>(value)), "hmps: the field ", name, " is ", value,
-                " at particle ", i, ", which single precision does not hold; use vtk_field<double>");
+                " at particle ", i, ", which does not fit single precision; use vtk_field<double>");
       values.push_back(static_cast<T>(value));
     }
   return as_field(std::move(name), components, values);
@@ -70,9 +71,9 @@ template <class T, class At>
 }  // namespace detail
 
 /// A number per particle as a field called `name`: `vtk_field("J", scalars(j))`. Floating-point numbers are written as
-/// `Real`; single precision is enough to look at, `vtk_field<double>(...)` keeps all digits. Whole numbers, such as the
+/// `Real`; single precision is enough for display, `vtk_field<double>(...)` keeps all digits. Integers, such as the
 /// organ of each particle, are written in 32 bits. NaN and infinity are written as they are, so that a run that has
-/// become unstable can be looked at. Throws `InputError` for a number that does not fit, and for a view of no memory.
+/// become unstable can be displayed. Throws `InputError` for a number that does not fit, and for a view of null.
 template <class Real = float, class T>
 [[nodiscard]] VtkField vtk_field(std::string name, const ScalarView<T>& view) {
   require_view(view, name.c_str());
@@ -81,7 +82,7 @@ template <class Real = float, class T>
       detail::require(
           std::in_range<std::int32_t>(static_cast<std::int64_t>(view[i])) && std::in_range<std::int64_t>(+view[i]),
           "hmps: the field ", name, " is ", +view[i], " at particle ", i,
-          ", which 32 bits do not hold; give it as a floating-point number");
+          ", which does not fit 32 bits; give it as a floating-point number");
     return detail::collect<std::int32_t>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });
   } else {
     return detail::collect<Real>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });
@@ -98,8 +99,8 @@ template <class Real = float, class T, int D>
 }
 
 /// A tensor per particle as a field of nine numbers called `name`, row by row, as ParaView's Tensor Glyph and
-/// calculator take them: `vtk_field("Cauchy stress", matrices(sigma))`. In two dimensions the third row and column are
-/// zero.
+/// calculator expect them: `vtk_field("Cauchy stress", matrices(sigma))`. In two dimensions the third row and column
+/// are zero.
 template <class Real = float, class T, int D>
 [[nodiscard]] VtkField vtk_field(std::string name, const MatrixView<T, D>& view) {
   require_view(view, name.c_str());

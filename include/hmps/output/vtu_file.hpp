@@ -27,27 +27,27 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What the values 0, 1, 2, ... of a field of whole numbers are called, such as organs: a list of words in the file,
-/// called after the field, "organ names".
+/// Names of the values 0, 1, 2, ... of an integer field, such as organs. The file contains them as a list of words that
+/// is named after the field, for example "organ names".
 struct VtkNames {
   std::string field;               ///< the field whose values are named
-  std::vector<std::string> names;  ///< of the values 0, 1, 2, ...
+  std::vector<std::string> names;  ///< the names of the values 0, 1, 2, ...
 };
 
-/// What a VTU file holds besides positions and fields.
+/// The contents of a VTU file besides positions and fields.
 struct VtuSettings {
   double time = 0;  ///< s, as ParaView shows it
-  /// Triangles between the points, as of a surface; without any each point is a cell of its own.
+  /// Triangles between the points, such as those of a surface; without triangles, each point is a cell of its own.
   std::span<const std::array<Index, 3>> triangles = {};
   std::vector<VtkNames> names = {};
 };
 
 namespace detail {
 
-/// Of this machine, as VTK calls it.
+/// The byte order of this machine, as VTK calls it.
 inline constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
-/// `text` as it may stand in XML between quotes. Bytes that XML cannot hold become question marks.
+/// `text` escaped for XML between quotes. Bytes that XML cannot hold become question marks.
 [[nodiscard]] inline std::string xml(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -71,7 +71,7 @@ inline constexpr const char* byte_order = std::endian::native == std::endian::li
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-/// Words as VTK keeps them: the numbers of their bytes, each word ended by a zero.
+/// Words as VTK stores them: the numbers of their bytes, with a zero after each word.
 [[nodiscard]] inline std::string vtk_words(const VtkNames& names) {
   std::string text = "<Array type=\"String\" Name=\"" + xml(names.field) + " names\" NumberOfTuples=\"" +
                      std::to_string(names.names.size()) + "\" format=\"ascii\">\n";
@@ -82,7 +82,7 @@ inline constexpr const char* byte_order = std::endian::native == std::endian::li
   return text + "</Array>\n";
 }
 
-/// The arrays of a VTK file: what is said of them, and their bytes behind one another.
+/// The arrays of a VTK file: their descriptions, and their bytes one after another.
 struct VtkArrays {
   std::string head, data;
   void add(const VtkField& field) {
@@ -110,7 +110,7 @@ inline void add_cells(VtkArrays& arrays, std::size_t size, std::span<const std::
   }
   arrays.add(as_field("connectivity", 1, connectivity));
   arrays.add(as_field("offsets", 1, offsets));
-  // Of VTK: 1 is a vertex, 5 a triangle.
+  // VTK's cell types: 1 is a vertex, 5 a triangle.
   arrays.add(as_field("types", 1, std::vector<std::uint8_t>(count, triangles.empty() ? 1 : 5)));
 }
 
@@ -120,23 +120,23 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
     require(!field.name.empty(), "hmps: field ", k, " of a VTU file has no name; ParaView needs one");
     require(std::none_of(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(k),
                          [&](const VtkField& other) { return xml(other.name) == xml(field.name); }),
-            "hmps: two fields of a VTU file are called ", xml(field.name), "; give each a name of its own");
+            "hmps: two fields of a VTU file are called ", xml(field.name), "; give each its own name");
     require((field.components == 1 || field.components == 3 || field.components == 9) &&
                 (field.type == "Float32" || field.type == "Float64" || field.type == "Int32" || field.type == "UInt8"),
             "hmps: the field ", field.name, " of a VTU file has ", field.components, " components of the type '",
-            field.type, "'; take what vtk_field makes");
+            field.type, "'; use vtk_field to make it");
     require(field.bytes.size() == size * field.width() * static_cast<std::size_t>(field.components), "hmps: the field ",
             field.name, " of a VTU file has ", field.size(), " particles but there are ", size,
-            " positions; give both of the same particles");
+            " positions; give both for the same particles");
   }
 }
 
-/// Throws `InputError` unless `names` are those of a field of whole numbers among `fields`, a name for each.
+/// Throws `InputError` unless `names` belong to an integer field among `fields` and name each of its values.
 inline void require_names(const VtkNames& names, std::span<const VtkField> fields) {
   const auto found = std::ranges::find_if(
       fields, [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; });
   require(found != fields.end(), "hmps: a VTU file has names for the values of ", names.field,
-          ", which is no field of whole numbers in it; name a field that is written too");
+          ", which is not an integer field in it; name a field that is written too");
   for (std::size_t i = 0; i < found->bytes.size() / sizeof(std::int32_t); ++i) {
     std::int32_t value = 0;
     std::memcpy(&value, found->bytes.data() + i * sizeof(value), sizeof(value));
@@ -148,9 +148,9 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
 }  // namespace detail
 
 /// Points with fields as the bytes of a VTK file (.vtu, unstructured grid, version 1.0, appended raw data), which
-/// ParaView, VTK and meshio read. `positions` in m has three components. Throws `InputError` for fields of another
-/// size, without a name or with the same one, triangles that name points that are not there, names of no field of whole
-/// numbers or too few for its values, and a time that is not finite.
+/// ParaView, VTK and meshio read. `positions` are in m, with three components. Throws `InputError` for fields of
+/// another size, without a name or with equal names, for triangles that name points that do not exist, for names that
+/// belong to no integer field or are too few for its values, and for a time that is not finite.
 [[nodiscard]] inline std::string vtu_text(const VtkField& positions, std::span<const VtkField> fields,
                                           const VtuSettings& settings = {}) {
   const std::size_t size = positions.size();
@@ -190,19 +190,19 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
 ///     write_vtu("body.vtu", x, {{vtk_field("velocity", v), vtk_field("organ", scalars(organ))}},
 ///               {.time = t, .names = {{"organ", {"tongue", "palate"}}}});
 ///
-/// Positions `x` in m, in two dimensions z is zero. The file is replaced whole: whoever reads it while it is written
-/// finds the old one. Throws `InputError` as `vtu_text` does, for a position that is not finite, a name that does not
-/// end in .vtu, and where the file cannot be written, with its name and the reason.
+/// Positions `x` are in m; in two dimensions z is zero. The file is replaced as a whole: whoever reads it while it is
+/// written finds the old one. Throws `InputError` as `vtu_text` does, for a position that is not finite, for a name
+/// that does not end in .vtu, and, with the name and the reason, if the file cannot be written.
 template <class T, int D>
 void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
                const VtuSettings& settings = {}) {
   detail::require(path.extension() == ".vtu", "hmps: ", path.string(),
-                  " is to be a VTK file of the kind .vtu; give it that ending, by which ParaView knows it");
+                  " should be a VTK file of the kind .vtu; give it that ending, by which ParaView recognises it");
   require_finite(x, "the position");
   detail::replace_file(path, vtu_text(vtk_field("position", x), fields, settings));
 }
 
-/// The text of a ParaView collection (.pvd): the time in s and the file of each frame, the name relative to the
+/// The text of a ParaView collection (.pvd): the time in s and the file of each frame, with its name relative to the
 /// collection's folder.
 [[nodiscard]] inline std::string pvd_text(std::span<const std::pair<double, std::string>> frames) {
   std::string text =
@@ -214,29 +214,29 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
   return text + "</Collection>\n</VTKFile>\n";
 }
 
-/// Frames of a run, as ParaView shows them one after another: open `press.pvd` there.
+/// Frames of a run, which ParaView shows one after another: open `press.pvd` there.
 ///
 ///     VtuSeries frames("results/press.pvd");                       // makes the folder
 ///     frames.add(t, x, {{vtk_field("velocity", v)}});              // writes results/press_00000.vtu, ...
 ///
-/// The collection is whole at any moment, so that a run can be watched while it goes on. Frames of an earlier run with
-/// the same name are overwritten one by one.
+/// The collection is complete at any moment, so that a run can be watched while it goes on. Frames of an earlier run
+/// with the same name are overwritten one by one.
 class VtuSeries {
  public:
-  /// Begins the collection `path` (.pvd). Throws `InputError` where its folder cannot be made or written to, and for a
+  /// Begins the collection `path` (.pvd). Throws `InputError` if its folder cannot be made or written to, and for a
   /// name that does not end in .pvd.
   explicit VtuSeries(const std::filesystem::path& path) : path_(std::filesystem::absolute(path)) {
     detail::require(path_.extension() == ".pvd", "hmps: ", path_.string(),
-                    " is to be a ParaView collection; end it in .pvd");
+                    " should be a ParaView collection; end its name in .pvd");
     std::error_code problem;
     std::filesystem::create_directories(path_.parent_path(), problem);
     detail::replace_file(path_, pvd_text(frames_));
   }
 
   /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection. Throws `InputError` as that
-  /// does, and for a time that does not follow that of the frame before: ParaView would show one of the two. Throws
-  /// `StateError` if the collection is no longer as this series left it, as where a second series writes to the same
-  /// path.
+  /// does, and for a time that is not later than that of the previous frame: ParaView would show only one of the two.
+  /// Throws `StateError` if the collection is no longer as this series left it, for example because a second series
+  /// writes to the same path.
   template <class T, int D>
   void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
            VtuSettings settings = {}) {
@@ -247,7 +247,7 @@ class VtuSeries {
       if (detail::read_text(path_.string()) != pvd_text(frames_))
         throw StateError(detail::message("hmps: ", path_.string(), " has changed since this series wrote its frame ",
                                          frames_.size(),
-                                         "; another series or program writes to it: give each a path of its own"));
+                                         "; another series or program writes to it: give each its own path"));
     settings.time = time;
     const std::string number = std::to_string(frames_.size());
     const std::string name =

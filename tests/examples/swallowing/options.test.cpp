@@ -105,7 +105,7 @@ TEST(Options, FittedParticlesLieOnNoLattice) {
   const auto shifted = parse({"--particles", "fitted", "--lattice-shift", "0.5"});
   EXPECT_FALSE(shifted.options);
   EXPECT_EQ(shifted.exit_code, 2);
-  EXPECT_NE(shifted.err.find("no lattice that could be shifted"), std::string::npos) << shifted.err;
+  EXPECT_NE(shifted.err.find("do not lie on a lattice that could be shifted"), std::string::npos) << shifted.err;
 }
 
 TEST(Options, NumbersAreDecimal) {

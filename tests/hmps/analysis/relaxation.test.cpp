@@ -91,8 +91,8 @@ template <class K>
 struct RelaxOf : testing::Test {};
 TYPED_TEST_SUITE(RelaxOf, Kinds);
 
-/// What a matrix solver finds for the same particles: the stiffness is the derivative of the force, column by column.
-/// With residuals R the error of the displacements is K^-1 R, at most |R| over the least eigenvalue.
+/// The solution of a matrix solver for the same particles: the stiffness is the derivative of the force, column by
+/// column. With residuals R the error of the displacements is K^-1 R, at most |R| over the least eigenvalue.
 TYPED_TEST(RelaxOf, FindsWhatASolverOfTheLinearSystemFinds) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
@@ -170,7 +170,7 @@ TYPED_TEST(RelaxOf, LeavesTheBodyAtRestAndTheRestWhereItWas) {
       reaction += f;
     }
   }
-  // By default unbalanced forces are compared with what the held particles carry.
+  // By default unbalanced forces are compared with the force that the held particles carry.
   EXPECT_NEAR(found.load / (held * body.volume), 1, 1e-12);
   EXPECT_NEAR(found.residual / (unbalanced / held), 1, 1e-12);
   EXPECT_LE(found.residual, 0.01);
@@ -239,8 +239,8 @@ TEST(Relax, FindsTheSameThroughViscosity) {
   for (std::size_t i = 0; i < end.size(); ++i) EXPECT_LT((body.position[i] - end[i]).norm(), 1e-4 * sag) << i;
 }
 
-/// A column that hangs and stretches to twice its length under its weight, put on at once: as it gets thinner its
-/// stable step shrinks, and relax has to follow.
+/// A hanging column that stretches to twice its length under its weight, applied at once: as it gets thinner its stable
+/// step shrinks, and relax has to follow.
 TEST(Relax, FollowsTheStableStepThroughALargeStrain) {
   Standing<double, 3> body(column<3>(4, 6));
   body.pull = Vector<double, 3>(0, 0, 4000);
@@ -252,16 +252,16 @@ TEST(Relax, FollowsTheStableStepThroughALargeStrain) {
   EXPECT_LE(found.residual, 1e-3);
   EXPECT_GT(body.position.back()[2], 2 * body.reference.back()[2]);
   EXPECT_LT(found.step, 0.8 * before);
-  // With the step of the start it does not come to rest in twice the time, and says so.
+  // With the initial step it does not come to rest in twice the time, and reports that.
   body.position = body.reference;
   settings.step = before;
   settings.max_iterations = 2 * found.iterations;
   EXPECT_THROW((void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings), StateError);
 }
 
-/// Two oscillators, the one at every step up to the limit of stability, 1 s, the other slow. Stopped without going back
-/// to the peak, the first would swing for ever where its period is four steps (a step of 1 / sqrt(2) s), and it would
-/// grow near the limit if the first kick were a whole one.
+/// Two oscillators: the first with every step up to its limit of stability, 1 s, the second slow. Stopped without going
+/// back to the peak, the first would swing for ever where its period is four steps (a step of 1 / sqrt(2) s), and it
+/// would grow near the limit if the first kick were a whole one.
 TEST(Relax, IsHeldUpByNoModeAtAnyStableStep) {
   for (const double step : {0.1, 0.3, 0.5, std::sqrt(0.5), 0.8, 0.9, 0.99}) {
     std::vector<Vector<double, 2>> x{{1, 0}, {0, 1}}, v = x, f = x;
@@ -273,7 +273,7 @@ TEST(Relax, IsHeldUpByNoModeAtAnyStableStep) {
                              {.spacing = 1, .tolerance = 1e-6, .load = 1, .max_iterations = 2000, .step = step});
     EXPECT_LT(x[0].norm(), 1e-6 / 4) << step;
     EXPECT_LT(x[1].norm(), 1e-6 / (slow * slow)) << step;
-    // No more than ten of the slow one's periods.
+    // No more than ten periods of the slow one.
     EXPECT_LT(found.iterations * step, 10 * 2 * std::acos(-1.0) / slow) << step;
   }
 }
@@ -297,7 +297,7 @@ TEST(Relax, SaysWhenItDoesNotConverge) {
   });
   EXPECT_TRUE(has(words, "relax made 20 iterations")) << words;
   EXPECT_TRUE(has(words, "larger tolerance than 0.001")) << words;
-  // What is there is kept, and a second call goes on.
+  // The state is kept, and a second call continues from it.
   EXPECT_LT(body.position.back()[1], body.reference.back()[1]);
   const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
                            {.spacing = l0, .load = body.weight(), .moves = body.moves()});
@@ -312,7 +312,7 @@ TEST(Relax, NamesTheParticleWhoseForceIsNotFinite) {
                 {.spacing = l0, .load = 1, .step = 1e-5, .moves = body.moves()});
   });
   EXPECT_TRUE(has(words, "particle 7 ")) << words;
-  // Forces of particles that do not move mean nothing where the load is given.
+  // Forces of particles that do not move are ignored if the load is given.
   const auto held = [](const auto&, const auto&, const auto& out) { out(0, 1) = std::nan(""); };
   EXPECT_EQ(relax(held, body.x(), body.v(), body.f(), density,
                   {.spacing = l0, .load = 1, .step = 1e-5, .moves = body.moves()})
@@ -323,7 +323,7 @@ TEST(Relax, NamesTheParticleWhoseForceIsNotFinite) {
       StateError);
 }
 
-// It was at rest at once, without a word: forces times a volume of a millionth count for nothing.
+// Earlier, relax reported rest at once: forces times a millionth of the volume do not count.
 TEST(Relax, RefusesASpacingInAnotherUnit) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));
@@ -336,7 +336,8 @@ TEST(Relax, RefusesASpacingInAnotherUnit) {
   }
 }
 
-// The lambda below looks at the user's own views and writes to them: relax saw no force, and said that all was at rest.
+// The lambda below reads and writes views of the user instead of its arguments: earlier, relax saw no force and
+// reported rest.
 TEST(Relax, RefusesAForceThatDoesNotWriteWhereItIsAsked) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));
@@ -350,14 +351,14 @@ TEST(Relax, RefusesAForceThatDoesNotWriteWhereItIsAsked) {
   });
   EXPECT_TRUE(has(words, "writes nothing")) << words;
   EXPECT_EQ(body.position, start);
-  // Nothing to do is no error: what is at rest already has a force as soon as it is moved.
+  // A body that is already at rest is no error: it has a force as soon as it is displaced.
   const auto springs = [&](const auto& x, const auto&, const auto& f) {
     for (std::size_t i = 0; i < x.size(); ++i) f.set(i, Vector<double, 2>(-1e6 * (x[i] - start[i])));
   };
   EXPECT_EQ(relax(springs, body.x(), body.v(), body.f(), density, {.spacing = l0, .load = 1}).iterations, 0);
 }
 
-// It fell for all of the iterations that it may make, and then asked for more of them.
+// Earlier, the body fell for all permitted iterations, and the message asked for more of them.
 TEST(Relax, SaysWhenNothingHoldsTheBody) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));

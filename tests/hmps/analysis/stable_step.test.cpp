@@ -72,7 +72,7 @@ using Kinds = testing::Types<Kind<double, 2>, Kind<double, 3>, Kind<float, 2>, K
 
 template <class K>
 struct StableStepOf : testing::Test {
-  /// What the linear force is known to in T: the rounding of positions against trial displacements.
+  /// The accuracy of the linear force in T: the rounding of positions relative to trial displacements.
   static constexpr double exactness = sizeof(typename K::Scalar) > 4 ? 1e-6 : 2e-3;
 };
 TYPED_TEST_SUITE(StableStepOf, Kinds);
@@ -222,7 +222,8 @@ TEST(StableStep, ParticlesThatDoNotMoveDoNotCount) {
                InputError);
 }
 
-// Forces of particles of unlike volumes are not symmetric, only times the volumes; the motion itself is the judge.
+// Forces of particles with different volumes are symmetric only when multiplied by the volumes; the motion itself
+// decides.
 TEST(StableStep, HoldsForParticlesOfUnlikeVolumes) {
   constexpr double l0 = 1e-3, rho = 1000;
   std::vector<Vector<double, 2>> X;
@@ -298,7 +299,7 @@ TEST(StableStep, RefreshesSeeAModeThatAppearsElsewhere) {
     ++settings.seed;
     found = stable_step(chain, vectors(x), vectors(v), scalars(density), settings);
   }
-  EXPECT_LE(refreshes, 3);  // of one before it happened, at a stiffness 2.5 times that of the mode before
+  EXPECT_LE(refreshes, 3);  // of one before it happened, at a stiffness 2.5 times that of the earlier mode
   expect_safe(found, limit, 1e-6);
 }
 

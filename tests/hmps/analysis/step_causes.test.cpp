@@ -104,7 +104,8 @@ TEST(StepCauses, SupportIsOneInsideAHalfAtAFaceAndLessAtEdges) {
   EXPECT_NEAR(relative_support(lattice, face), 0.5, 1e-12);
   EXPECT_NEAR(relative_support(list, inside), 1.0, 1e-6);
   EXPECT_NEAR(relative_support(list, face), 0.5, 1e-6);
-  // Of the corner's 7 bonds, with w at 1, sqrt 2 and sqrt 3 spacings, A = a 1 + b (ones - 1): the smallest is a - b.
+  // For the corner's 7 bonds, with w at 1, sqrt 2 and sqrt 3 spacings, A = a 1 + b (ones - 1): the least eigenvalue is
+  // a - b.
   const double w1 = 0.75, w2 = 1.75 / std::sqrt(2.0) - 1, w3 = 1.75 / std::sqrt(3.0) - 1;
   const double a = w1 + 2 * w2 + w3, b = w2 + w3, full = 2 * w1 + 8 * w2 + 8 * w3;
   EXPECT_NEAR(relative_support(lattice, corner), (a - b) / full, 1e-12);

@@ -37,8 +37,7 @@ TYPED_TEST(BondList, HoldsTheBondsOfEveryKindOfBody) {
   }
 }
 
-// Both ends of a bond see the same weight, and the same r0 of opposite sign, to the bit: what one pulls the other
-// pushes.
+// Both ends of a bond see the same weight and opposite r0, to the bit: one end pulls as much as the other pushes.
 TYPED_TEST(BondList, SeesEveryBondAlikeFromBothEnds) {
   using K = typename TypeParam::Scalar;
   constexpr int D = TypeParam::dimension;
@@ -59,8 +58,8 @@ TYPED_TEST(BondList, SeesEveryBondAlikeFromBothEnds) {
   }
 }
 
-// 26 neighbours inside, in whatever order the particles come and with a jitter of a quarter of a spacing in all: with
-// room for the weights, 16 or 8 lanes in a row, and little else.
+// 26 neighbours inside, in any order of the particles and with a jitter of a quarter of a spacing in all: there is
+// memory for the weights, 16 or 8 lanes in a row, and little else.
 TYPED_TEST(BondList, TakesLittleMemory) {
   constexpr int D = TypeParam::dimension;
   if constexpr (D == 3) {

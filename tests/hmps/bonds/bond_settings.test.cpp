@@ -39,7 +39,7 @@ TYPED_TEST(BondsOfAnyKind, RefuseAPredicateThatIsNotSymmetric) {
   }));
 }
 
-// A weight that is negative or NaN at some distance cut the bonds of that length.
+// Earlier, a weight that was negative or NaN at some distance cut the bonds of that length.
 TYPED_TEST(BondsOfAnyKind, RefuseWeightsThatAreNone) {
   const std::vector<V> points = square();
   const auto with = [&](double far_weight) {
@@ -53,7 +53,7 @@ TYPED_TEST(BondsOfAnyKind, RefuseWeightsThatAreNone) {
   EXPECT_THROW(TypeParam(hmps::vectors(points), {.spacing = 1}, EveryBond{}, tiny), InputError);
 }
 
-// Their scale was 0 / 0, and the viscous force NaN.
+// Earlier, the scale was 0 / 0 if no particle had a bond, and the viscous force NaN.
 TYPED_TEST(BondsOfAnyKind, HaveAFiniteScaleWhereNoParticleIsBonded) {
   const std::vector<V> one{V::Zero()};
   const TypeParam bonds(hmps::vectors(one), {.spacing = 1, .unbonded = true});

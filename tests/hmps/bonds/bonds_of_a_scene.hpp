@@ -18,7 +18,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/view.hpp"
 
-/// What the tests of both models of bonds share.
+/// Shared by the tests of both models of bonds.
 namespace bonds_of_a_scene {
 
 template <class B>
@@ -40,7 +40,7 @@ void equal_the_plain_ones(const B& bonds, const scenes::Scene<B::dimension>& sce
   for (std::size_t i = 0; i < body.size(); ++i) {
     std::map<std::size_t, std::pair<hmps::Vector<K, D>, K>> found;
     bonds.for_each_bond(i, [&](std::size_t j, const hmps::Vector<K, D>& r0, K w) {
-      EXPECT_TRUE(found.emplace(j, std::pair(r0, w)).second) << "the bond " << i << ' ' << j << " is there twice";
+      EXPECT_TRUE(found.emplace(j, std::pair(r0, w)).second) << "the bond " << i << ' ' << j << " appears twice";
     });
     ASSERT_EQ(found.size(), body.neighbours(i)) << i;
     body.for_each_bond(i, [&](const auto& bond) {
@@ -122,7 +122,7 @@ std::string error_of(Call&& call) {
 }
 inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What both models refuse, with the words of the message.
+/// Inputs that both models refuse, with the words of the message.
 template <class B>
 void refuse_bad_input() {
   constexpr int D = B::dimension;

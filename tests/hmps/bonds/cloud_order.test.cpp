@@ -41,8 +41,8 @@ TYPED_TEST(CloudOrder, HoldsEveryParticleOnceWhateverTheOrderInWhichTheyAreGiven
   }
 }
 
-// The rows of a lattice that has lost its order and, by a quarter of a spacing in all, its places: along the direction
-// that makes the fewest of them, which is not the last one here.
+// The rods of a shuffled lattice with a jitter of a quarter of a spacing in all are its rows, along the direction that
+// gives the fewest of them, which is not the last one here.
 TYPED_TEST(CloudOrder, FollowsTheRowsOfALattice) {
   constexpr int D = TypeParam::value;
   constexpr double l0 = scenes::Scene<D>::spacing;

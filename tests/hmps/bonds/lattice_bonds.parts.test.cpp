@@ -31,7 +31,7 @@ auto force_of(const Bonds& bonds) {
                               hmps::viscous(1000, 2e-3));
 }
 
-/// A strained body that moves, far from where it was.
+/// A strained body that moves, far from its reference position.
 struct Body {
   State X = scenes::box<3>({11, 6, 5}), x = X, v = X;
   Bonds bonds{hmps::vectors(X), {.spacing = l0}};
@@ -48,8 +48,8 @@ struct Body {
   }
 };
 
-/// How many of the particles whose `part_of` is `part` get a force of other bits than in the whole, if the part knows
-/// the `axes` and the displacement that the whole subtracts, or not.
+/// How many of the particles whose `part_of` is `part` get a force with other bits than in the whole, whether or not
+/// the part knows the `axes` and the displacement that the whole subtracts.
 std::size_t differences(const Body& body, const std::vector<int>& part_of, int part, bool axes, bool displacement) {
   const std::size_t n = body.X.size();
   std::vector<int> layer(n, 3);
@@ -66,7 +66,7 @@ std::size_t differences(const Body& body, const std::vector<int>& part_of, int p
   for (const std::size_t i : particles) {
     X.push_back(body.X[i]);
     x.push_back(body.x[i]);
-    v.push_back(layer[i] <= 1 ? body.v[i] : Vector::Zero());  // those of the second layer count for nothing
+    v.push_back(layer[i] <= 1 ? body.v[i] : Vector::Zero());  // the forces of the second layer do not count
   }
   hmps::BondSettings settings{.spacing = l0, .unbonded = true};
   if (axes) settings.axes = hmps::lattice_axes(hmps::vectors(body.X), l0);
@@ -95,8 +95,8 @@ TEST(PartsOfALattice, HaveTheBitsOfTheWhole) {
   for (const int part : {0, 1}) EXPECT_EQ(differences(body, scattered, part, true, true), 0u) << "scattered " << part;
 }
 
-// Without either of what they are told they round in another way: this is what `axes` and `subtract_displacement` are
-// for, and shows that the comparison above can fail.
+// Without the axes or the displacement of the whole, parts round differently: this is what `axes` and
+// `subtract_displacement` are for, and shows that the comparison above can fail.
 TEST(PartsOfALattice, RoundInAnotherWayIfTheyChooseForThemselves) {
   const Body body;
   std::vector<int> slabs;

@@ -97,7 +97,7 @@ TEST(LatticeBonds, SkipComponentsThatAreZero) {
 
 TEST(LatticeBonds, KeepTheShapesOfLikeBlocksOnce) {
   const double l0 = scenes::Scene<3>::spacing;
-  // Rows of one length after the other differ in what is inside only.
+  // Bodies with rows of different lengths differ only in the number of blocks inside.
   const auto bytes = [&](int length) {
     const auto points = scenes::box<3>({3, 3, length});
     const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(points), {.spacing = l0});

@@ -95,8 +95,8 @@ TEST(OwnBonds, AreRefusedWithTheNamesOfTheParticles) {
   EXPECT_TRUE(has(refused(with({1, 4}), 1.0), "bond 6 names particle 4 but there are only 4"));
   EXPECT_TRUE(has(refused(with({-1, 2}), 1.0), "bond 6 names particle -1 but"));
   EXPECT_TRUE(has(refused(with({2, 2}), 1.0), "particle 2 is bonded to itself"));
-  EXPECT_TRUE(has(refused(with({1, 3}), 1.0), "the bond of particles 1 and 3 is there twice"));
-  EXPECT_TRUE(has(refused(with({3, 1}), 1.0), "the bond of particles 1 and 3 is there twice"));
+  EXPECT_TRUE(has(refused(with({1, 3}), 1.0), "the bond of particles 1 and 3 is given twice"));
+  EXPECT_TRUE(has(refused(with({3, 1}), 1.0), "the bond of particles 1 and 3 is given twice"));
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            1e-60, 1e60}) {  // the last two in float
     std::vector<double> weights(6, 1.0);
@@ -131,7 +131,7 @@ TEST(OwnBonds, AsListsMustNameEachBondFromBothEnds) {
   EXPECT_TRUE(has(refused(lists, 1.0), "particle 3 has the neighbour 2 but not the other way round"));
   lists = good;
   lists[1].push_back(2);
-  EXPECT_TRUE(has(refused(lists, 1.0), "the bond of particles 1 and 2 is there twice"));
+  EXPECT_TRUE(has(refused(lists, 1.0), "the bond of particles 1 and 2 is given twice"));
   lists = good;
   lists[1][0] = 7;
   EXPECT_TRUE(has(refused(lists, 1.0), "particle 1 has the neighbour 7 but there are only 4 particles"));
@@ -141,7 +141,7 @@ TEST(OwnBonds, AsListsMustNameEachBondFromBothEnds) {
   lists.pop_back();
   EXPECT_TRUE(has(refused(lists, 1.0), "there are 3 lists of neighbours but 4 particles"));
   std::vector<std::vector<double>> weights{{1, 1, 1}, {1, 1, 2}, {1, 1, 1}, {1, 1, 1}};
-  EXPECT_TRUE(has(refused(good, weights), "the bond of particles 1 and 3 has the weight 2 from the one and 1 from"));
+  EXPECT_TRUE(has(refused(good, weights), "the bond of particles 1 and 3 has the weight 2 from one end and 1 from"));
   weights[1].pop_back();
   EXPECT_TRUE(has(refused(good, weights), "particle 1 has 3 neighbours but another number of weights"));
 }

@@ -26,14 +26,14 @@ TEST(PlausibleSpacing, RefusesASpacingThatBondsEverythingToEverything) {
   const auto points = scenes::box<3>({24, 24, 24});
   const std::string error = error_with<3>(points, 1.2);
   EXPECT_TRUE(has(error, "particle 0 has 13823 neighbours")) << error;
-  EXPECT_TRUE(has(error, "64 particles that were looked at have 13823 on average")) << error;
+  EXPECT_TRUE(has(error, "64 particles that were sampled have 13823 on average")) << error;
   EXPECT_TRUE(has(error, "a spacing of 1.2 m gives about 22")) << error;
   EXPECT_TRUE(has(error, "the typical distance to the nearest particle is 0.0012 m")) << error;
 }
 
 TEST(PlausibleSpacing, RefusesASpacingThatLeavesNearlyAllAlone) {
   auto points = scenes::box<3>({6, 6, 6});
-  points.push_back(points.front() + hmps::Vector<double, 3>(1e-7, 0, 0));  // one pair that is near
+  points.push_back(points.front() + hmps::Vector<double, 3>(1e-7, 0, 0));  // one pair within the radius
   const std::string error = error_with<3>(points, 1.2e-6);
   EXPECT_TRUE(has(error, "particle 3 has 0 neighbours")) << error;
   EXPECT_TRUE(has(error, "63 of 64 particles")) << error;
@@ -41,7 +41,7 @@ TEST(PlausibleSpacing, RefusesASpacingThatLeavesNearlyAllAlone) {
   EXPECT_TRUE(has(error, "the typical distance to the nearest particle is 0.0012 m")) << error;
 }
 
-// A radius in metres where a number of spacings is asked for: the spacing is not what is wrong.
+// A radius in metres instead of a number of spacings: the spacing itself is not wrong.
 TEST(PlausibleSpacing, NamesARadiusThatIsNoNumberOfSpacings) {
   constexpr double l0 = scenes::Scene<3>::spacing;
   const std::string error = error_with<3>(scenes::box<3>({6, 6, 6}), l0, 1.75 * l0);

@@ -55,7 +55,7 @@ TEST(ParticleSet, RefusesWhatIsNoParticleOrGivenTwice) {
   EXPECT_EQ(text({3, 0}), "");
 }
 
-// Of another scene, a set would hold still, or let go, all particles beyond its own.
+// A set of another scene would hold, or release, all particles beyond its own.
 TEST(ParticleSet, OfAnotherSceneIsRefusedAlsoWithinAFunction) {
   const ParticleSet set(5, [](std::size_t) { return true; });
   EXPECT_THROW(hmps::detail::require_scene(set, 6, "that move"), hmps::InputError);

@@ -39,7 +39,7 @@ TEST(PerParticle, CallableComputesTheValueOfEach) {
   EXPECT_NE(message(3).find("density of particle 2"), std::string::npos) << message(3);
   EXPECT_NE(message(2), message(3));
   values[2] = 5;
-  EXPECT_NE(message(4).find("hold 3 particles"), std::string::npos) << message(4);
+  EXPECT_NE(message(4).find("holds 3 particles"), std::string::npos) << message(4);
   body[1] = 2;
   EXPECT_NE(message(3).find("particle 1 belongs to body 2"), std::string::npos) << message(3);
 }
@@ -48,7 +48,7 @@ TEST(PerParticle, AVectorIsEachOnesOwn) {
   const std::vector<Vector<float, 2>> directions{{1, 0}, {0.6F, 0.8F}};
   EXPECT_EQ(OneParticle{1}(vectors(directions)), (Vector<double, 2>(0.6F, 0.8F)));
   const std::string message = hmps_test::message_of([&] { (void)OneParticle{2}(vectors(directions)); });
-  EXPECT_NE(message.find("hold 2 particles, but particle 2"), std::string::npos) << message;
+  EXPECT_NE(message.find("holds 2 particles, but particle 2"), std::string::npos) << message;
 }
 
 TEST(PerParticle, ValuesThatAreNotPositiveAreNamed) {

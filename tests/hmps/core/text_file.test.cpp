@@ -38,7 +38,7 @@ TEST(TextFile, EndsWithWhatDoesNotEnd) {
     (void)read_text("/dev/zero", 3'000'000);
     FAIL() << "an endless file has ended";
   } catch (const hmps::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("/dev/zero is no regular file and has not ended after 3000000 bytes"),
+    EXPECT_NE(std::string(error.what()).find("/dev/zero is not a regular file and has not ended after 3000000 bytes"),
               std::string::npos)
         << error.what();
   }
@@ -60,7 +60,7 @@ TEST(TextFile, ReadsPipes) {
 TEST(TextFile, QuotesOnlyWhatCanBePrinted) {
   EXPECT_EQ(printable("vertex 1"), "vertex 1");
   EXPECT_EQ(printable(std::string_view("a\0\n\xff\x1b[2J", 8)), "a\\x00\\x0a\\xff\\x1b[2J");
-  // Not by +, of which g++ 12 warns falsely.
+  // Not with +, about which g++ 12 warns falsely.
   EXPECT_EQ(printable(std::string(41, 'q')), std::string(40, 'q').append("..."));
 }
 

@@ -12,7 +12,7 @@ class Types : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Types, Scalars);
 
-// What is stored must look the same to every translation unit, whatever it is compiled for.
+// Stored types must have the same layout in every translation unit, whatever it is compiled for.
 TYPED_TEST(Types, HaveTheLayoutOfAnArray) {
   EXPECT_EQ(sizeof(hmps::Vector<TypeParam, 2>), 2 * sizeof(TypeParam));
   EXPECT_EQ(sizeof(hmps::Vector<TypeParam, 3>), 3 * sizeof(TypeParam));

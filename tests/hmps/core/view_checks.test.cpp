@@ -24,8 +24,8 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEST(ViewChecks, RefuseNull) {
   double number = 0;
-  EXPECT_TRUE(has(error_of(VectorView<double, 2>({nullptr, nullptr}, 3, 16)),
-                  "velocities has 3 particles at the address null"));
+  EXPECT_TRUE(
+      has(error_of(VectorView<double, 2>({nullptr, nullptr}, 3, 16)), "velocities has 3 particles but a null address"));
   EXPECT_TRUE(has(error_of(VectorView<double, 2>({&number, nullptr}, 1, 16)), "null"));
   EXPECT_EQ(error_of(VectorView<double, 2>({nullptr, nullptr}, 0, 0)), "nothing was thrown");
 }

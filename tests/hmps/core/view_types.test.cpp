@@ -13,7 +13,7 @@ using hmps::VectorView;
 static_assert(std::is_convertible_v<VectorView<double, 3>, VectorView<const double, 3>>);
 static_assert(!std::is_convertible_v<VectorView<const double, 3>, VectorView<double, 3>>);
 
-// Two components that lie in memory of their own, every third number counts; the view runs backwards.
+// Two components in separate memory, of which every third number counts; the view runs backwards.
 TEST(ViewTypes, FindComponentsByBaseAndStride) {
   std::vector<double> memory(20);
   for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = static_cast<double>(k);

@@ -22,7 +22,7 @@ TYPED_TEST_SUITE(JacobianOf, Kinds);
 TYPED_TEST(JacobianOf, CountsWhatItIsAskedToCount) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
-  // More particles than one chunk of the reduction holds; det F is 1 but for a few.
+  // More particles than one chunk of the reduction holds; det F is 1 except for a few.
   std::vector<Matrix<T, D>> F(5000, Matrix<T, D>::Identity());
   const auto stretch = [&](std::size_t i, double J) { F[i](1, 1) = static_cast<T>(J); };
   stretch(10, 0.5);

@@ -19,7 +19,7 @@ namespace recorded_test {
 using Tensor = hmps::Matrix<double, 3>;
 using Vector = hmps::Vector<double, 3>;
 
-// A forgotten `record(F)` leaves zeros, of which a body without volume could be made.
+// A forgotten `record(F)` leaves zeros, which could be taken for a body without volume.
 TEST(Recorded, DiagnosticsRefuseGradientsThatNothingHasWritten) {
   std::vector<Tensor> F(5, Tensor::Identity()), out(5);
   std::vector<Vector> x(5, Vector::Zero()), v = x;
@@ -41,7 +41,7 @@ TEST(Recorded, DiagnosticsRefuseGradientsThatNothingHasWritten) {
   refused([&] { hmps::von_mises_stresses(read, law, hmps::scalars(mises)); });
   refused([&] { (void)hmps::strain_energy(read, law, 1e-9); });
   refused([&] { (void)hmps::check_state(hmps::vectors(x), hmps::vectors(v), read, {}); });
-  // A particle that is crushed flat, but was written, is another matter.
+  // A particle that is crushed flat, but whose F was written, is accepted.
   F[3] = Vector(1, 1, 0).asDiagonal();
   EXPECT_NO_THROW(hmps::detail::require_recorded(read));
   EXPECT_EQ(hmps::jacobian_statistics(read).min, 0);

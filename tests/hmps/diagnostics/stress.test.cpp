@@ -17,7 +17,7 @@ using Tensor = Matrix<double, 3>;
 
 constexpr double mu = 3e3, kappa = 2e6;
 constexpr NeoHookean<double> law{mu, kappa};
-// The terms that are summed are of kappa |J - 1| or mu: a few units in their last place.
+// The summed terms are of the size of kappa |J - 1| or mu: a few units in their last place.
 constexpr double rounding = 1e-14 * kappa;
 
 void expect_near(const Tensor& found, const Tensor& expected, double tolerance) {
@@ -87,7 +87,7 @@ TEST(Stress, OfAllParticlesIsThatOfEach) {
   F[1](0, 1) = 0.5f;
   F[2](2, 2) = 1.25f;
   std::vector<double> shear{1e3, 2e3, 3e3}, mises(3);
-  // One law for each, as for the force.
+  // One law for each particle, as for the force.
   const auto material = [&](const auto& at) { return NeoHookean{at(scalars(shear)), kappa}; };
   cauchy_stresses(matrices(F), material, matrices(cauchy));
   first_piola_kirchhoff_stresses(matrices(F), material, matrices(piola));

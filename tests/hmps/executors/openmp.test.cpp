@@ -22,7 +22,7 @@ TEST(OpenMP, RefusesNoThreads) {
   EXPECT_THROW(hmps::OpenMP{0}(1, [](std::size_t) {}), hmps::InputError);
 }
 
-// Thousands of threads that spin for each other look like a program that hangs.
+// Thousands of threads that spin while they wait for each other look like a program that hangs.
 TEST(OpenMP, RefusesMoreThreadsThanCanWork) {
   const int most = hmps::OpenMP::most_threads();
   EXPECT_GE(most, 4 * omp_get_num_procs());

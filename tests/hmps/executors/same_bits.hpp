@@ -20,7 +20,7 @@
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/viscous.hpp"
 
-/// What every executor must do.
+/// The requirements on every executor.
 namespace same_bits {
 
 template <class E>

@@ -18,8 +18,8 @@
 #include "hmps/core/view.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
 
-/// What the tests of the force terms share: materials that differ from particle to particle, and
-/// the plain equations with them.
+/// Shared by the tests of the force terms: materials that differ from particle to particle, and the plain equations
+/// with them.
 namespace equations {
 
 inline constexpr double density = 1000, viscosity = 2e-3;
@@ -86,7 +86,7 @@ struct Tolerance {
       displacement = std::max(displacement, (u(i) - u(0)).norm());
       speed = std::max(speed, scene.v[i].norm());
     }
-    // The state itself is in double: its rounding, of about 0.1 m, is there whatever K.
+    // The state itself is in double: the rounding of its positions, of about 0.1 m, is present whatever K is.
     const double eps = std::numeric_limits<K>::epsilon() * (1 + displacement / scene.spacing) +
                        std::numeric_limits<double>::epsilon() * 0.1 / scene.spacing;
     gradient = 4 * eps;

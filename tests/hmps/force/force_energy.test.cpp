@@ -32,7 +32,7 @@ struct Springs {
   }
   double energy(const hmps::BondState<double, 2>& bond) const { return 0.5 * bond.elongation() * tension(bond); }
 };
-/// c = k: springs without a length of rest, of energy k |r|^2 w / 2 to each end.
+/// c = k: springs of zero rest length, with the energy k |r|^2 w / 2 for each end.
 struct OwnTerm {
   double k;
   template <class K, int D>
@@ -59,8 +59,8 @@ struct Scene {
   double volume = scene.spacing * scene.spacing;
 };
 
-// The force is minus the gradient of the energy of the same object: elastic force of a reduced law, stabiliser and mean
-// dilatation, and then weight, springs and a term of the user's own beside them.
+// The force is minus the gradient of the energy of the same object: first the elastic force of a reduced law,
+// stabiliser and mean dilatation, then also weight, springs and a user-defined term.
 TEST(ForceEnergy, IsWhatTheForceIsMinusTheGradientOf) {
   Scene s;
   const auto share = hmps::split_bulk_modulus(1e6, 7e3);
@@ -79,8 +79,8 @@ TEST(ForceEnergy, IsWhatTheForceIsMinusTheGradientOf) {
   expect(hmps::internal_force(s.bonds, hmps::mean_dilatation<2>(share.mean), Both{{1e9}, {1e8}}));
 }
 
-// With the volume of each particle, it is the force times that volume which is minus the gradient, and which sums to
-// zero, as does its moment; so does the viscous one.
+// With a volume per particle, the force times that volume is minus the gradient. It sums to zero, as does its moment;
+// so does the viscous force.
 TEST(ForceEnergy, OfUnlikeVolumesIsWhatTheForceTimesTheVolumeIsMinusTheGradientOf) {
   const Scene s;
   const std::size_t n = s.scene.x.size();
@@ -123,7 +123,8 @@ TEST(ForceEnergy, OfUnlikeVolumesIsWhatTheForceTimesTheVolumeIsMinusTheGradientO
   sums_to_zero(false);
 }
 
-// Term by term it is what the diagnostics compute from the same deformation gradients; what keeps no energy has none.
+// Term by term, the energy is what the diagnostics compute from the same deformation gradients; it is zero for terms
+// that store none.
 TEST(ForceEnergy, IsThatOfTheDiagnosticsTermByTerm) {
   Scene s;
   const std::size_t n = s.scene.x.size();

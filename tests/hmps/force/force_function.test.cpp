@@ -18,7 +18,7 @@ namespace force_function_test {
 using Function = hmps::ForceFunction<double, 2>;
 static_assert(hmps::ProbedForce<Function, double, 2>);
 
-// One type holds forces of different terms, and gives the same bits as they do.
+// One type holds forces with different terms, and gives the same bits as they do.
 TEST(ForceFunction, HoldsAnyForce) {
   const auto scene = scenes::all<2>().front();
   const std::size_t n = scene.x.size();

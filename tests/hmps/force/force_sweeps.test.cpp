@@ -43,7 +43,7 @@ scenes::Scene<3> scene_of(const std::string& name) {
   throw std::runtime_error(name);
 }
 
-// f_i = sum_j t_ij r_ij / |r_ij|, bond by bond in double; and what one end gains the other loses, also of the moment.
+// f_i = sum_j t_ij r_ij / |r_ij|, bond by bond in double; one end gains the force and moment that the other loses.
 TYPED_TEST(Pairs, PullAlongEachBondAndConserveMomentum) {
   using K = typename TypeParam::Scalar;
   const auto scene = scene_of("box with holes");
@@ -78,7 +78,7 @@ TYPED_TEST(Pairs, PullAlongEachBondAndConserveMomentum) {
   EXPECT_LE(moment.norm(), 0.1 * rounding * std::sqrt(static_cast<double>(n)));
 }
 
-// Two particles at one place have no direction: no force, and nothing that is not a number.
+// Two particles at the same place define no direction: they exert no force, and nothing is NaN.
 TEST(ForceSweeps, PairsAtOnePlaceDoNotPull) {
   auto reference = scenes::box<3>({3, 3, 3});
   const auto corner = reference[0];

@@ -19,7 +19,7 @@ template <class B>
 class FusedForce : public testing::Test {};
 TYPED_TEST_SUITE_P(FusedForce);
 
-// Eqs. (13), (19) and (21) with another material in every particle, over every kind of body.
+// Eqs. (13), (19) and (21) with a different material in every particle, over every kind of body.
 TYPED_TEST_P(FusedForce, EqualsTheEquationsEvaluatedOneByOne) {
   constexpr int D = TypeParam::dimension;
   for (const auto& scene : scenes::all<D>()) {

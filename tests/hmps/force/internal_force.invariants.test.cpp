@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What holds of the elastic and artificial forces whatever the state: they are the gradient of an
-// energy that rigid motion does not change.
+// Properties of the elastic and artificial forces in every state: they derive from an energy that rigid motion does not
+// change.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ class Invariants : public testing::Test {
     R(0, 1) = -std::sin(angle);
     R(1, 0) = std::sin(angle);
     if constexpr (dimension == 3) {
-      // About an axis that is none of the lattice.
+      // About an axis that is not one of the lattice.
       Eigen::Matrix3d tilt = Eigen::Matrix3d::Identity();
       tilt(1, 1) = tilt(2, 2) = 0.6;
       tilt(1, 2) = -0.8;
@@ -113,7 +113,7 @@ TYPED_TEST(Invariants, RigidMotionMakesNoForce) {
   }
 }
 
-// Forces and torques sum to zero, with another material in every particle.
+// Forces and torques sum to zero, with a different material in every particle.
 TYPED_TEST(Invariants, ForcesAndTorquesSumToZero) {
   constexpr int D = TypeParam::dimension;
   for (const auto& scene : scenes::all<D>()) {

@@ -39,7 +39,7 @@ TYPED_TEST(Order, OfTheBlocksChangesNoBit) {
   EXPECT_TRUE(same_bits::identical(probe(lambda), expected));
 }
 
-// The order in which particles are given changes nothing but rounding, of lattices, bodies with cuts and clouds.
+// The order in which particles are given changes only the rounding, for lattices, bodies with cuts and clouds.
 template <class B>
 class OrderOfParticles : public testing::Test {};
 TYPED_TEST_SUITE(OrderOfParticles, Lists);

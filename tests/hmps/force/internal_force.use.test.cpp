@@ -35,7 +35,7 @@ scenes::Scene<3> scene_of(const std::string& name) {
 }
 const hmps::MooneyRivlin<double> law{1700, 1500, 1e4};
 
-// The user's memory decides nothing: the same numbers give the same bits.
+// The layout of the user's memory does not matter: the same numbers give the same bits.
 TEST(InternalForce, WorksOnTheUsersOwnMemory) {
   for (const char* name : {"box whose rows are long in the first direction", "shuffled"}) {
     const auto scene = scene_of(name);
@@ -76,7 +76,7 @@ TEST(InternalForce, WorksOnTheUsersOwnMemory) {
   }
 }
 
-// On a lattice the order of the user's particles decides nothing either.
+// On a lattice the order of the user's particles does not matter either.
 TEST(InternalForce, DoesNotDependOnTheOrderOfTheParticles) {
   const auto scene = scene_of("L");
   const std::size_t n = scene.x.size();
@@ -102,7 +102,7 @@ TEST(InternalForce, DoesNotDependOnTheOrderOfTheParticles) {
   for (std::size_t i = 0; i < n; ++i) ASSERT_LE((f[order[i]] - g[i]).norm(), 1e-9 * largest) << i;
 }
 
-/// W = mu (C - 1) : (C - 1) / 4: what a user's own law looks like.
+/// W = mu (C - 1) : (C - 1) / 4: an example of a user-defined law.
 struct OwnLaw {
   double mu;
   template <class T, int D>
@@ -112,7 +112,7 @@ struct OwnLaw {
     return S;
   }
 };
-/// Springs of stiffness k of one particle and that of its neighbour, w (k_i + k_j) r_ij.
+/// Springs with the stiffness of a particle and that of its neighbour, w (k_i + k_j) r_ij.
 struct OwnSprings {
   hmps::ScalarView<const float> stiffness;
   template <class K, int D>
@@ -120,7 +120,7 @@ struct OwnSprings {
     coupling.c += at(stiffness);
   }
 };
-/// d (v_j - v_i) w with a number of the user's own.
+/// d (v_j - v_i) w with a number that the user chooses.
 struct OwnDamping {
   template <class K, int D>
   double damping(const hmps::Blocks<K, D>&) const {
@@ -179,7 +179,7 @@ TEST(InternalForce, OfNoTermsIsZeroAndKeepsNoScratch) {
   EXPECT_EQ(&force.bonds(), &bonds);
 }
 
-// One object serves any number of states in turn: nothing of one is left in the next.
+// One object serves any number of states in turn: no state affects the next.
 TEST(InternalForce, RemembersNoState) {
   const auto scene = scene_of("thin sheet");
   const auto bonds = make_bonds<Lattice>(scene);
@@ -194,7 +194,7 @@ TEST(InternalForce, RemembersNoState) {
   EXPECT_EQ(f, g);
 }
 
-// What moves feels the same to the bit, and what nothing that moves can feel is not evaluated.
+// Particles that move get the same force to the bit, and what cannot affect them is not evaluated.
 TEST(InternalForce, LeavesOutWhatOnlyPrescribedParticlesNeed) {
   const auto scene = scene_of("box whose rows are long in the first direction");
   const auto bonds = make_bonds<Lattice>(scene);
@@ -231,7 +231,7 @@ TEST(InternalForce, LeavesOutWhatOnlyPrescribedParticlesNeed) {
   EXPECT_EQ(found, expected);
 }
 
-// Eq. (2) in the last sweep: what the force and `kick` give one after the other, whatever the layout.
+// Eq. (2) in the last sweep gives the same as the force followed by `kick`, whatever the layout.
 TEST(InternalForce, KicksAsForceAndKickDo) {
   for (const char* name : {"box whose rows are long in the first direction", "shuffled"}) {
     const auto scene = scene_of(name);
@@ -245,7 +245,7 @@ TEST(InternalForce, KicksAsForceAndKickDo) {
     force(hmps::vectors(scene.x), hmps::vectors(scene.v), hmps::vectors(f));
     hmps::kick(hmps::vectors(expected), hmps::vectors(f), hmps::scalars(rho), dt);
     force.kick(hmps::vectors(scene.x), hmps::vectors(v), hmps::scalars(rho), dt);
-    // The same bits but for what a compiler contracts in one loop and not in the other.
+    // The same bits, except where a compiler contracts operations in only one of the two loops.
     double speed = 0;
     for (const auto& each : expected) speed = std::max(speed, each.norm());
     EXPECT_GT(largest_difference<3>(expected, [&](std::size_t i) { return scene.v[i]; }), 1e-3 * speed);
@@ -313,7 +313,7 @@ TEST(InternalForce, RefusesForcesInTheMemoryOfTheState) {
   EXPECT_TRUE(x == scene.x && v == scene.v);
 }
 
-// A vector of bodies moves them when it grows: the force goes on with the bonds where they are.
+// A vector of bodies moves them when it grows: the force follows the bonds to their new place.
 TEST(InternalForce, FollowsBondsThatAreMoved) {
   const auto scene = scene_of("box");
   std::vector<Lattice> bodies;
@@ -338,7 +338,7 @@ TEST(InternalForce, RefusesBondsThatAreNoMore) {
   const auto evaluate = [&] { force(hmps::vectors(scene.x), hmps::vectors(f)); };
   EXPECT_NO_THROW(evaluate());
   *bonds = make_bonds<Lattice>(scene_of("L"));
-  EXPECT_TRUE(has(error_of(evaluate), "bonds of this force are no more"));
+  EXPECT_TRUE(has(error_of(evaluate), "bonds of this force no longer exist"));
   auto second = hmps::internal_force(*bonds, hmps::elastic(law));
   const Lattice moved = std::move(*bonds);
   EXPECT_EQ(&second.bonds(), &moved);
@@ -347,7 +347,7 @@ TEST(InternalForce, RefusesBondsThatAreNoMore) {
   EXPECT_EQ(&second.bonds(), &moved);
 }
 
-// Only a force without damping may be asked for without velocities.
+// Only a force without damping may be called without velocities.
 template <class Force>
 concept WithoutVelocities = requires(Force& force, const hmps::VectorView<double, 3>& x) {
   force(x, x);
@@ -378,7 +378,7 @@ struct Bursting {
     return S;
   }
 };
-// With the sign of the stress turned round a body was NaN within some thousand steps.
+// With the sign of the stress reversed, a body was NaN within some thousand steps.
 TEST(InternalForce, RefusesALawWhoseStressFallsWhereTheStrainGrows) {
   const auto bonds = make_bonds<Lattice>(scene_of("box"));
   EXPECT_NO_THROW((void)hmps::internal_force(bonds, hmps::elastic(Bursting{7e3})));
@@ -400,7 +400,7 @@ struct Pull {
     return T(static_cast<float>(strength)) * bond.weight() / bond.elongation();
   }
 };
-// When the force is made, not by a state that is NaN many steps later.
+// Reported when the force is made, not by a state that is NaN many steps later.
 TEST(InternalForce, RefusesAPairTermThatIsNotFinite) {
   const auto bonds = make_bonds<Lattice>(scene_of("shuffled"));
   const auto text =

@@ -43,13 +43,13 @@ struct Scene {
   }
 };
 
-// The areas of a face add up to its area, those of the whole surface to nothing; the force follows the face (Nanson).
+// The areas of a face add up to its area, those of the whole surface to zero; the force follows the face (Nanson).
 TEST(Pressure, HasTheAreaOfTheFaceAndTurnsWithIt) {
   Scene s;
   const auto everything = s.set([](const Vector&) { return true; });
   EXPECT_LE(hmps::Pressure(s.bonds, everything).area(volume).norm(), 1e-18);
   const hmps::Pressure top(s.bonds, s.set([](const Vector& X) { return X[2] > 0.003; }));
-  // The edges have parts of the faces beside them too, which cancel, and the face its whole area.
+  // The edges also have parts of the adjacent faces, which cancel, and the face has its whole area.
   EXPECT_LE((top.area(volume) - Vector(0, 0, 0.006 * 0.008)).norm(), 1e-12 * 0.006 * 0.008);
 
   Tensor F;
@@ -88,7 +88,7 @@ TEST(Pressure, IsInEquilibriumWithAUniformStress) {
   EXPECT_LE(left, 1e-10 * largest);
 }
 
-// The two faces of a wall of fewer than four layers share their particles: of two layers nothing was left.
+// The two faces of a wall of fewer than four layers share their particles: with two layers, no force was left.
 TEST(Pressure, RefusesWallsWhoseFacesCancel) {
   for (const int layers : {1, 2, 3, 4, 5, 8}) {
     const double top = layers * l0;
@@ -106,7 +106,7 @@ TEST(Pressure, RefusesWallsWhoseFacesCancel) {
       EXPECT_THROW(make(), hmps::InputError) << layers;  // one layer does not even span space
   }
 }
-// Layers that lie wider apart are not more of them.
+// Layers that lie further apart do not count as more layers.
 TEST(Pressure, CountsTheLayersOfFittedWalls) {
   for (const double thickness : {2.0, 2.6, 3.1, 3.45, 4.0, 4.4, 5.0}) {
     const hmps::Box<double, 3> wall{Vector::Zero(), Vector(10, 11, thickness)};
@@ -122,7 +122,7 @@ TEST(Pressure, CountsTheLayersOfFittedWalls) {
   }
 }
 
-// What a lattice or edges make of the surface of a thick body is no thin wall.
+// Stairs of a lattice, or edges, on the surface of a thick body are not taken for a thin wall.
 TEST(Pressure, TakesAnyThickBody) {
   const auto whole = [](const auto& points) {
     const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a restricted force gives is in internal_force.use.test.cpp.
+// The results of a restricted force are tested in internal_force.use.test.cpp.
 #include "hmps/force/restricted_blocks.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace restricted_blocks_test {
 
 using Bonds = hmps::LatticeBonds<double, 2>;
 
-// The sum needs the blocks of the particles that move, the coupling those of their neighbours too, the dilatation those
-// of neighbours of neighbours of neighbours.
+// The sum needs the blocks of the particles that move, the coupling also those of their neighbours, the dilatation
+// those of three rings of neighbours.
 TEST(RestrictedBlocks, GrowByTheNeighboursThatEachSweepReads) {
   const auto points = scenes::box<2>({64, 9});
   const Bonds bonds(hmps::vectors(points), {.spacing = scenes::Scene<2>::spacing});

@@ -18,7 +18,7 @@ class BlocksOf : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BlocksOf, Scalars);
 
-/// Blocks in an order of the test's choice.
+/// Blocks in an order that the test chooses.
 template <class K>
 struct Ordered : hmps::Blocks<K, 2> {
   Ordered(const std::vector<std::array<float, 2>>& points, const std::vector<hmps::Index>& order)
@@ -66,7 +66,7 @@ TYPED_TEST(BlocksOf, KeepTheReferenceConfigurationInTheOrderOfTheSweep) {
   EXPECT_GT(blocks.bytes(), n * 2 * sizeof(double));
 }
 
-/// Blocks of which the particles for which `other(i)` holds have another neighbourhood.
+/// Blocks in which the particles with `other(i)` have a different neighbourhood.
 template <class K>
 struct Shared : hmps::Blocks<K, 2> {
   template <class Other>

@@ -14,7 +14,7 @@ namespace lanes_test {
 template <class T>
 class LanesOf : public testing::Test {
  protected:
-  /// Another number in every lane.
+  /// A different number in every lane.
   static hmps::Lanes<T> ramp(double first, double step) {
     hmps::Lanes<T> a;
     for (int l = 0; l < hmps::Lanes<T>::width; ++l) a.lane[l] = static_cast<T>(first + step * l);

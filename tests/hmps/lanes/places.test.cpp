@@ -25,8 +25,8 @@ struct Ordered : hmps::Blocks<K, 2> {
       : hmps::Blocks<K, 2>(hmps::vectors(points), order) {}
 };
 
-// Pairs up to the radius apart in a body of a million radii, off the origin: r0 is that of the positions in double to
-// half a unit in the last place of K and what the whole numbers round, also where they pass 2^32.
+// Pairs up to the radius apart in a body of a million radii, off the origin: r0 agrees with that of the positions in
+// double to half a unit in the last place of K plus the rounding to whole numbers, also where these pass 2^32.
 TYPED_TEST(Places, GiveR0ToTheRoundingOfTheKernelsAndOfOppositeSignFromBothEnds) {
   using K = TypeParam;
   constexpr std::size_t width = hmps::Blocks<K, 2>::width;

@@ -49,7 +49,7 @@ TYPED_TEST(Slots, ArraysHaveAMarginOfZerosAtBothEnds) {
   EXPECT_EQ((hmps::detail::SlotArrays<TypeParam, 0>(slots).bytes()), 0u);
 }
 
-// What was put in one by one comes out a block at a time, and the other way round.
+// Numbers that were stored one by one are read a block at a time, and the other way round.
 TYPED_TEST(Slots, ArraysHandOutWhatWasKept) {
   constexpr auto width = static_cast<std::size_t>(hmps::Lanes<TypeParam>::width);
   constexpr std::size_t slots = 5 * width;

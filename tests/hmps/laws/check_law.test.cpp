@@ -17,7 +17,7 @@ namespace check_law_test {
 
 using hmps::check_law;
 
-/// Saint Venant-Kirchhoff's law without Poisson's effect, W = mu E : E, with what users get wrong.
+/// Saint Venant-Kirchhoff's law without Poisson's effect, W = mu E : E, with typical mistakes of users.
 struct Own {
   double factor = 2;  // of mu E in S
   double rest = 0;    // Pa, in S and in W
@@ -81,7 +81,7 @@ TEST(CheckLaw, RejectsWhatIsNotFiniteAndSettingsOutOfRange) {
   EXPECT_NE(error_of<3>({.factor = nan}), "");
   EXPECT_NE(error_of<3>({.rest = nan}, {.prestressed = true}), "");
   for (const double strain : {0.0, -0.1, 0.3, nan})
-    EXPECT_NE(error_of<3>({}, {.strain = strain}).find("must lie above 0"), std::string::npos) << strain;
+    EXPECT_NE(error_of<3>({}, {.strain = strain}).find("must be above 0"), std::string::npos) << strain;
 }
 
 }  // namespace check_law_test

@@ -145,7 +145,7 @@ void has_its_moduli(const Law& law) {
   EXPECT_NEAR(sheared(0, 0), 0, 1e-4 * (K + G));
 }
 
-/// One particle in each lane gives what each gives alone.
+/// A particle per lane gives the same results as each particle alone.
 template <class T, int D, class Law>
 void runs_on_lanes(const Law& law, const std::vector<Matrix<double, D>>& states) {
   using Pack = hmps::Lanes<T>;

@@ -51,7 +51,7 @@ TEST(LinearElastic, ModuliThatAreNotPositiveAreRefused) {
   EXPECT_THROW((LinearElastic<double>{1000, -1}.validate()), InputError);
 }
 
-// As where soft tissue is given by from_moduli(G, K).
+// As if soft tissue were given by from_moduli(G, K).
 TEST(LinearElastic, RefusesModuliThatWereInterchanged) {
   EXPECT_NO_THROW(LinearElastic<double>::from_moduli(2e6, 15e3).validate());
   EXPECT_THROW(LinearElastic<double>::from_moduli(15e3, 2e6).validate(), InputError);

@@ -30,8 +30,8 @@ Matrix<double, D> cauchy(const MooneyRivlin<T>& law, const Matrix<double, D>& F)
   return P * F.transpose() / determinant(F);
 }
 
-/// The diagonal F with F11 = F22 = `stretch` if `both`, else F11 alone, and the rest such that the
-/// free faces bear no stress: Newton's iteration on the lateral stretch, in double.
+/// The diagonal F with F11 = `stretch`, F22 = `stretch` if `both`, and the other components such that the free faces
+/// bear no stress: Newton's iteration on the lateral stretch, in double.
 Matrix<double, 3> free_faces(double stretch, bool both) {
   const auto law = paper_tissue<double>();
   const auto state = [&](double lateral) {
@@ -149,7 +149,8 @@ TEST(MooneyRivlin, ModuliThatAreNotPositiveAreRefused) {
   }
 }
 
-// What is taken for D1 by mistake: Poisson's ratio, D1 in MPa, and the 2 / K of other programs in 1/Pa and 1/MPa.
+// Numbers that are taken for D1 by mistake: Poisson's ratio, D1 in MPa, and the 2 / K of other programs in 1/Pa and
+// 1/MPa.
 TEST(MooneyRivlin, ConstantsThatAreNoD1AreRefused) {
   for (const double d1 : {0.49, 0.3, 1.0, 1e-6, 1e-12, 2000.0}) {
     try {

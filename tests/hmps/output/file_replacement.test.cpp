@@ -40,7 +40,7 @@ TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
     EXPECT_NE(std::string(error.what()).find(missing.string()), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
   }
-  // What is no file stays: a program of root would replace a device by a file.
+  // What is not a regular file stays: a program run by root would otherwise replace a device by a file.
   EXPECT_THROW(detail::replace_file("/dev/null", "1"), InputError);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   // A folder that is not empty cannot be replaced by a file.
