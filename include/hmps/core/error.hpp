@@ -43,6 +43,8 @@ namespace hmps::inline HMPS_ABI::detail {
 /// adds to compile time.
 class MessagePart {
  public:
+  /// A literal, which would otherwise instantiate a constructor for each length.
+  MessagePart(const char* words) : words_(words) {}
   template <class T>
   MessagePart(const T& part) {
     if constexpr (std::convertible_to<const T&, std::string_view>) {
