@@ -48,19 +48,25 @@ struct Direction {
         damping(n, Vector<double, D>::Zero()) {}
 };
 
+/// A `ProbedForce` without its type, so that the analysis of forces is compiled only once.
+template <class T, int D>
+using AnyForce =
+    std::function<void(const VectorView<const T, D>&, const VectorView<const T, D>&, const VectorView<T, D>&)>;
+
 /// The linearised force, with the vector algebra that the search for its largest eigenvalue needs.
-template <class Force, class T, int D, class Rho, class E>
+template <class T, int D>
 class ProbedScene {
  public:
   using Vectors = std::vector<Vector<double, D>>;
 
-  template <class X, class V>
+  /// The force must outlive the scene.
+  template <class Force, class X, class V, class Rho>
   ProbedScene(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& density, double length,
-              const E& execute)
-      : force_(force),
-        density_(density),
+              const AnyExecutor& execute)
+      : force_([&force](const auto&... views) { force(views...); }),
         execute_(execute),
         size_(x.size()),
+        root_density_(size_),
         x_(size_),
         v_(size_),
         moved_(size_),
@@ -73,6 +79,7 @@ class ProbedScene {
       x_[i] = x[i];
       farthest = std::max(farthest, static_cast<double>(x_[i].cwiseAbs().maxCoeff()));
       for (int c = 0; c < D; ++c) v_[i][c] = static_cast<T>(v(i, c));
+      root_density_[i] = std::sqrt(static_cast<double>(at_particle(density, i)));
     }
     require(length >= 8 * static_cast<double>(std::numeric_limits<T>::epsilon()) * farthest,
             "hmps: the trial displacements of stable_step are ", length, " m, which vanishes in the rounding of ",
@@ -80,6 +87,7 @@ class ProbedScene {
             " m; give the spacing in metres, a larger perturbation, or positions in double closer to the origin");
   }
 
+  [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool damped() const { return damped_; }
   /// The number of force evaluations so far.
   [[nodiscard]] int evaluations() const { return evaluations_; }
@@ -105,7 +113,7 @@ class ProbedScene {
   }
   /// a <- alpha a + beta b.
   void blend(Direction<D>& a, double alpha, const Direction<D>& b, double beta) const {
-    execute_(size_, [&](std::size_t i) {
+    for_each_in_chunks(size_, execute_, [&](std::size_t i) {
       a.y[i] = alpha * a.y[i] + beta * b.y[i];
       a.stiffness[i] = alpha * a.stiffness[i] + beta * b.stiffness[i];
       a.damping[i] = alpha * a.damping[i] + beta * b.damping[i];
@@ -125,7 +133,7 @@ class ProbedScene {
   using State = std::vector<Vector<T, D>>;
 
   void call(const State& x, const State& v, State& f) {
-    execute_(size_, [&](std::size_t i) { f[i].setZero(); });
+    for_each_in_chunks(size_, execute_, [&](std::size_t i) { f[i].setZero(); });
     ++evaluations_;
     force_(vectors(x), vectors(v), vectors(f));
   }
@@ -134,16 +142,17 @@ class ProbedScene {
   template <class Call>
   void difference(const Vectors& y, const State& state, double size, Vectors& image, Call&& evaluate) {
     const double largest = reduce(
-        size_, 0.0, [&](std::size_t i) { return y[i].norm() / root_density(i); },
+        size_, 0.0, [&](std::size_t i) { return y[i].norm() / root_density_[i]; },
         [](double a, double b) { return std::max(a, b); }, execute_);
     const double h = size / largest;
     for (const double sign : {1.0, -1.0}) {
-      execute_(size_,
-               [&](std::size_t i) { moved_[i] = state[i] + (y[i] * (sign * h / root_density(i))).template cast<T>(); });
+      for_each_in_chunks(size_, execute_, [&](std::size_t i) {
+        moved_[i] = state[i] + (y[i] * (sign * h / root_density_[i])).template cast<T>();
+      });
       evaluate(moved_, sign > 0 ? plus_ : minus_);
     }
-    execute_(size_, [&](std::size_t i) {
-      image[i] = (minus_[i].template cast<double>() - plus_[i].template cast<double>()) / (2 * h * root_density(i));
+    for_each_in_chunks(size_, execute_, [&](std::size_t i) {
+      image[i] = (minus_[i].template cast<double>() - plus_[i].template cast<double>()) / (2 * h * root_density_[i]);
     });
     if (detail::is_finite(dot(image, image))) return;
     for (std::size_t i = 0; i < size_; ++i)
@@ -152,14 +161,10 @@ class ProbedScene {
                                  plus_[i].transpose(), " N/m3; check its det F, x, v and the parameters of its law"));
   }
 
-  [[nodiscard]] double root_density(std::size_t i) const {
-    return std::sqrt(static_cast<double>(at_particle(density_, i)));
-  }
-
-  Force& force_;
-  const Rho& density_;
-  const E& execute_;
+  AnyForce<T, D> force_;
+  AnyExecutor execute_;
   std::size_t size_;
+  std::vector<double> root_density_;
   State x_, v_, moved_, plus_, minus_;
   double length_, speed_;
   bool damped_ = true;

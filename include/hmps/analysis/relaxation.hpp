@@ -52,7 +52,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   using Read = VectorView<const X, D>;
   static_assert(std::invocable<Force&, const Read&, const VectorView<const V, D>&, const VectorView<F, D>&>,
                 "hmps: relax calls force(x, v, f) with read-only views of positions and velocities and a view of the "
-                "force densities");
+                "force densities; a composed force must not be const");
   detail::require_relaxable(x, v, f, rho, settings);
   detail::RelaxingBody body(x, v, f, rho, settings, execute);
 

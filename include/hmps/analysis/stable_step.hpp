@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <type_traits>
+#include <functional>
 
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/stable_step_settings.hpp"
@@ -56,7 +56,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   using T = typename VectorView<X, D>::Scalar;
   static_assert(ProbedForce<Force, T, D>,
                 "hmps: stable_step calls force(x, v, f) with VectorView<const T, D>, VectorView<const T, D> and "
-                "VectorView<T, D> of the scalar of the positions");
+                "VectorView<T, D> of the scalar of the positions; a composed force must not be const");
   detail::validate(settings);
   detail::require(x.size() > 0, "hmps: stable_step was given no particles");
   require_size(v, x.size(), "velocities");
@@ -65,8 +65,9 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   require_finite(x, "the position");
   require_finite(v, "the velocity");
   detail::require_spacing_of(x, settings.spacing, "stable_step", detail::most_compressed);
-  detail::StepSearch<std::remove_reference_t<Force>, T, D, Rho, E> search(force, x, v, density, settings, execute);
-  return search.run();
+  const detail::AnyExecutor loops = std::cref(execute);
+  detail::ProbedScene<T, D> scene(force, x, v, density, detail::trial_displacement<T>(settings), loops);
+  return detail::StepSearch<T, D>(scene, settings, loops).run();
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "hmps/analysis/probed_scene.hpp"
@@ -69,10 +68,8 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   std::vector<StepCause> causes;
   if (!detail::is_finite(found.limit)) return causes;
   const double dt = found.limit;
-  const Serial serial;
   const auto ask = [&](const std::string& name, auto& force) {
-    detail::ProbedScene<std::remove_reference_t<decltype(force)>, T, D, Rho, Serial> scene(
-        force, x, v, density, detail::trial_displacement<T>(settings), serial);
+    detail::ProbedScene<T, D> scene(force, x, v, density, detail::trial_displacement<T>(settings), Serial{});
     scene.scale_speed(dt);
     detail::Direction<D> mode(n);
     for (std::size_t i = 0; i < n; ++i)

@@ -46,17 +46,15 @@ template <class S>
 
 /// The search of `stable_step`: conjugate gradients on the Rayleigh quotient of dt^2 K + 2 dt C, with dt updated in
 /// each iteration.
-template <class Force, class T, int D, class Rho, class E>
+template <class T, int D>
 class StepSearch {
  public:
   /// Starts from noise, and from the mode in `settings` if there is one.
-  template <class X, class V>
-  StepSearch(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& density,
-             const StableStepSettings& settings, const E& execute)
+  StepSearch(ProbedScene<T, D>& scene, const StableStepSettings& settings, const AnyExecutor& execute)
       : settings_(settings),
         execute_(execute),
-        n_(x.size()),
-        scene_(force, x, v, density, trial_displacement<T>(settings), execute),
+        n_(scene.size()),
+        scene_(scene),
         best_(n_),
         descent_(n_),
         previous_(n_) {
@@ -84,7 +82,7 @@ class StepSearch {
       }
       scene_.scale_speed(dt);
       // B = dt^2 K + 2 dt C has the quotient 4 at `best_`; the residual is the direction of ascent.
-      execute_(n_, [&](std::size_t i) {
+      for_each_in_chunks(n_, execute_, [&](std::size_t i) {
         const Vector<double, D> image = dt * dt * best_.stiffness[i] + 2 * dt * best_.damping[i];
         descent_.y[i] = image - 4.0 * best_.y[i];
       });
@@ -198,9 +196,9 @@ class StepSearch {
   }
 
   const StableStepSettings& settings_;
-  const E& execute_;
+  const AnyExecutor& execute_;
   std::size_t n_;
-  ProbedScene<Force, T, D, Rho, E> scene_;
+  ProbedScene<T, D>& scene_;
   Direction<D> best_, descent_, previous_;
   double k_ = 0, c_ = 0;  // quotients of `best_`
   bool have_previous_ = false, fresh_ = true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -14,6 +15,9 @@ namespace detail {
 struct AnyBody {
   void operator()(std::size_t) const {}
 };
+
+/// A type-erased executor, so that code whose loops are few or long is compiled only once.
+using AnyExecutor = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 }  // namespace detail
 
 /// Runs the loops of the library: `execute(n, body)` calls `body(i)` exactly once for every `i` in `[0, n)`, in any
@@ -31,6 +35,19 @@ struct Serial {
     for (std::size_t i = 0; i < n; ++i) body(i);
   }
 };
+
+namespace detail {
+/// Calls `body(i)` for every `i` in `[0, n)`, with one call through `execute` for each chunk of 1024: for short bodies
+/// and a type-erased executor.
+template <class Body>
+void for_each_in_chunks(std::size_t n, const AnyExecutor& execute, const Body& body) {
+  constexpr std::size_t chunk = 1024;
+  execute((n + chunk - 1) / chunk, [&](std::size_t c) {
+    const std::size_t end = std::min(n, (c + 1) * chunk);
+    for (std::size_t i = c * chunk; i < end; ++i) body(i);
+  });
+}
+}  // namespace detail
 
 /// Folds `term(i)` for `i` in `[0, n)` with `combine`, starting from `start`. Chunks have a fixed length and are
 /// combined in order, so the result is identical to the bit for any executor.

@@ -42,4 +42,10 @@ with tempfile.TemporaryDirectory() as folder:
 
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)  # goes on where there is nothing left to do
     expect((out / "margins.md").read_text().splitlines()[2:] == rows, "the same command again gives another table")
+
+    subprocess.run([*command, "--map", "0.1"], check=True, stdout=subprocess.DEVNULL)
+    slopes = (out / "map.md").read_text().splitlines()[2:]
+    expect(len(slopes) == 5 and all(row.count("|") == 3 for row in slopes), f"the map has {len(slopes)} rows")
+    angles = [[row["angle"] for row in table_of(f"H{degrees:+}/constrictors.csv")] for degrees in (-8, 0, 8)]
+    expect(angles == [[0, 0, 20, 20], [0, 0, 28, 28], [0, 0, 36, 36]], f"the plates of H turn by {angles} degrees")
 print(f"{len(rows)} rows")

@@ -37,6 +37,20 @@ TEST(Serial, CallsTheBodyOnceForEachInOrder) {
   hmps::Serial{}(0, [&](std::size_t) { FAIL(); });
 }
 
+TEST(ForEachInChunks, CallsTheBodyOnceForEach) {
+  for (const std::size_t n : {0u, 1u, 1023u, 1024u, 1025u, 5000u}) {
+    std::vector<int> calls(n, 0);
+    std::size_t chunks = 0;
+    const auto backwards = [&](std::size_t count, const auto& body) {
+      chunks = count;
+      Backwards{}(count, body);
+    };
+    hmps::detail::for_each_in_chunks(n, backwards, [&](std::size_t i) { ++calls[i]; });
+    EXPECT_EQ(calls, std::vector<int>(n, 1)) << n;
+    EXPECT_EQ(chunks, (n + 1023) / 1024);
+  }
+}
+
 TEST(Reduce, SumsEveryTermOnce) {
   for (const std::size_t n : {0u, 1u, 2u, 1023u, 1024u, 1025u, 5000u}) {
     const auto sum = hmps::reduce(

@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <vector>
 
 #include "hmps/contact/lists/organ_pairs.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/search/grid.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
-
-/// A type-erased executor, so that code that runs rarely is compiled only once.
-using AnyExecutor = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 
 /// The broad-phase list: for every slave, the masters within reach plus a margin. Each row belongs to one slave of one
 /// side.
