@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -87,23 +88,24 @@ requires Shape<F, S, D>
   static_assert(D == 2 || D == 3, "hmps: fitted particles have 2 or 3 dimensions");
   detail::validate(settings);
   const double l0 = static_cast<double>(spacing);
-  detail::FittedField<F, S, D> field(shape, box, l0, settings.least_layers);
-  field.sample(execute);
-  field.measure(execute);
+  const detail::AnyExecutor loops = std::cref(execute);
+  detail::FittedField<D> field(shape, box, l0, settings.least_layers);
+  field.sample(loops);
+  field.measure(loops);
   const double thinnest = (1 - 1e-5) * settings.thinnest_spacing * l0;  // tolerates the rounding of a thickness
-  detail::FittedCloud<decltype(field), D> cloud(field, thinnest);
-  cloud.seed(execute);
+  detail::FittedCloud<D> cloud(field, thinnest);
+  cloud.seed(loops);
   for (int k = 0; k < settings.iterations; ++k) {
     const double left = 1 - static_cast<double>(k) / settings.iterations;
-    const double move = cloud.iterate(k, left, execute);
+    const double move = cloud.iterate(k, left, loops);
     progress(FitProgress{k + 1, settings.iterations, move});
   }
-  cloud.settle(execute);
+  cloud.settle(loops);
   if (settings.least_support > 0) cloud.remove_weak(settings.least_support);
 
   FittedParticles<S, D> result;
   result.iterations = settings.iterations;
-  for (const double volume : detail::fitted_volumes(field, cloud, settings, execute))
+  for (const double volume : detail::fitted_volumes(field, cloud, settings, loops))
     result.volumes.push_back(static_cast<S>(volume));
   result.positions.reserve(cloud.particles().size());
   for (const auto& p : cloud.particles()) {

@@ -23,10 +23,11 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// The particles of a `FittedField` while they are fitted: spread over the layers by volume, then pushed apart within
 /// them.
-template <class Field, int D>
+template <int D>
 class FittedCloud {
  public:
   using Point = Vector<double, D>;
+  using Field = FittedField<D>;
 
   struct Particle {
     Point place;
@@ -45,8 +46,7 @@ class FittedCloud {
   [[nodiscard]] const std::vector<Particle>& particles() const { return particles_; }
 
   /// Puts a particle wherever a volume of spacing^D of the same layer has been passed along the samples.
-  template <class E>
-  void seed(const E& execute) {
+  void seed(const AnyExecutor& execute) {
     const auto& samples = field_.samples();
     constexpr int most = Field::most_layers;
     std::vector<Parts> parts(samples.size());
@@ -70,8 +70,7 @@ class FittedCloud {
   }
 
   /// One iteration, with the share `left` of all iterations still to go. Returns the longest move in m.
-  template <class E>
-  double iterate(int iteration, double left, const E& execute) {
+  double iterate(int iteration, double left, const AnyExecutor& execute) {
     if (iteration % between_looks == 0) {
       execute(particles_.size(), [&](std::size_t i) { look(particles_[i]); });
       find_neighbours(execute);
@@ -92,8 +91,7 @@ class FittedCloud {
   }
 
   /// Moves all particles exactly to the middle of their layers.
-  template <class E>
-  void settle(const E& execute) {
+  void settle(const AnyExecutor& execute) {
     constexpr int most_corrections = 20;
     execute(particles_.size(), [&](std::size_t i) {
       Particle& p = particles_[i];
@@ -189,8 +187,7 @@ class FittedCloud {
     p.moved -= hold * p.moved.dot(p.slope) / slope * p.slope;
   }
 
-  template <class E>
-  void find_neighbours(const E& execute) {
+  void find_neighbours(const AnyExecutor& execute) {
     const double reach = (range + 0.4) * field_.spacing();
     near_.resize(particles_.size());
     grid_.build(particles_.size(), reach / 2, [&](std::size_t i) { return particles_[i].place; });

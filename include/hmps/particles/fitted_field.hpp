@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -64,18 +65,21 @@ struct Layering {
 };
 
 /// The part of a shape that lies in a box, in double whatever the scalar of the shape, with its samples, its surface
-/// and its thickness.
-template <class F, class S, int D>
+/// and its thickness. The type of the shape is erased, so that the fit is compiled once for all shapes.
+template <int D>
 class FittedField {
  public:
   using Point = Vector<double, D>;
-  static constexpr int dimension = D;
   static constexpr int samples_per_spacing = 4;
   static constexpr int most_layers = 8;     // across thin walls; thicker parts are bulk
   static constexpr double steepest = 1.25;  // the largest gradient of the distance with which no cut cell is missed
 
+  /// The shape must outlive the field.
+  template <class F, class S>
   FittedField(const F& shape, const Box<S, D>& box, double spacing, int least_layers)
-      : shape_(shape),
+      : shape_([&shape](const Point& x) {
+          return static_cast<double>(static_cast<S>(shape(Vector<S, D>(x.template cast<S>()))));
+        }),
         box_{box.lower.template cast<double>(), box.upper.template cast<double>()},
         spacing_(spacing),
         least_layers_(least_layers) {
@@ -87,7 +91,7 @@ class FittedField {
 
   /// Signed distance in m, negative inside. Throws `InputError` where the shape is NaN.
   [[nodiscard]] double operator()(const Point& x) const {
-    const double d = static_cast<double>(static_cast<S>(shape_(Vector<S, D>(x.template cast<S>()))));
+    const double d = shape_(x);
     if (is_nan(d))
       throw InputError(
           message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
@@ -109,12 +113,10 @@ class FittedField {
   }
 
   /// Samples the body and its surface: cells of one spacing along a space-filling curve, and 4^D samples in each.
-  template <class E>
-  void sample(const E& execute);
+  void sample(const AnyExecutor& execute);
 
   /// Measures the thickness behind every point of the surface.
-  template <class E>
-  void measure(const E& execute);
+  void measure(const AnyExecutor& execute);
 
   /// The layers at a place, from the mean thickness behind the points of the surface around it.
   [[nodiscard]] Layering layering(const Point& x) const {
@@ -180,7 +182,7 @@ class FittedField {
   [[nodiscard]] std::optional<SurfacePoint<D>> surface_at(Point place) const;
   void find_other_side_of_gap(const Point& centre, const Distances& distances, Found& found) const;
 
-  const F& shape_;
+  std::function<double(const Point&)> shape_;
   Box<double, D> box_;
   double spacing_;
   int least_layers_;

@@ -13,6 +13,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/particles/fitted_field.hpp"
 
@@ -22,8 +23,8 @@ namespace hmps::inline HMPS_ABI::detail {
 /// The part of a cut cell that lies inside the body, by 4^D points in 2^D blocks; `d` is the distance at its centre
 /// `x`. A block is not sampled point by point if the distance in its middle shows that it lies entirely inside or
 /// outside.
-template <class F, class S, int D>
-Sample<D> FittedField<F, S, D>::cut_cell(const Point& x, double d) const {
+template <int D>
+Sample<D> FittedField<D>::cut_cell(const Point& x, double d) const {
   constexpr int parts = samples_per_spacing, blocks = 1 << D, of_block = 1 << D;
   static_assert(parts == 4, "hmps: 2^D blocks of 2^D points are a cell of 4^D");
   const double edge = spacing_ / parts, fine = edge / parts, total = of_block * blocks;
@@ -49,8 +50,8 @@ Sample<D> FittedField<F, S, D>::cut_cell(const Point& x, double d) const {
   return sample;
 }
 
-template <class F, class S, int D>
-void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const {
+template <int D>
+void FittedField<D>::sample_cell(const Point& centre, Found& found) const {
   constexpr int parts = samples_per_spacing;
   const double edge = spacing_ / parts, volume = std::pow(edge, D);
   const double half_diagonal = 0.5 * std::sqrt(static_cast<double>(D)) * edge;
@@ -79,8 +80,8 @@ void FittedField<F, S, D>::sample_cell(const Point& centre, Found& found) const 
 }
 
 /// The point of the surface beside a `place` close to it; none at edges, where the shape has no outward direction.
-template <class F, class S, int D>
-std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point place) const {
+template <int D>
+std::optional<SurfacePoint<D>> FittedField<D>::surface_at(Point place) const {
   for (int step = 0; step < 4; ++step) {
     const Point g = gradient(place);
     if (!(g.squaredNorm() > 0.25)) return std::nullopt;
@@ -94,8 +95,8 @@ std::optional<SurfacePoint<D>> FittedField<F, S, D>::surface_at(Point place) con
 
 /// Adds a point of the other side where both sides of a narrow gap cross one cell: only one point of the surface was
 /// found there, but each side has a part of the body behind it. `distances` are those of the parts of the cell.
-template <class F, class S, int D>
-void FittedField<F, S, D>::find_other_side_of_gap(const Point& centre, const Distances& distances, Found& found) const {
+template <int D>
+void FittedField<D>::find_other_side_of_gap(const Point& centre, const Distances& distances, Found& found) const {
   constexpr int parts = samples_per_spacing;
   const SurfacePoint<D> first = found.surface.front();
   double nearest = steepest * 0.5 * std::sqrt(static_cast<double>(D)) * spacing_ / parts;
@@ -113,9 +114,8 @@ void FittedField<F, S, D>::find_other_side_of_gap(const Point& centre, const Dis
     found.surface.push_back(*other);
 }
 
-template <class F, class S, int D>
-template <class E>
-void FittedField<F, S, D>::sample(const E& execute) {
+template <int D>
+void FittedField<D>::sample(const AnyExecutor& execute) {
   std::array<std::size_t, std::size_t{D}> count{};
   std::size_t total = 1;
   for (int c = 0; c < D; ++c) {
@@ -154,9 +154,8 @@ void FittedField<F, S, D>::sample(const E& execute) {
           box_.upper.transpose(), "); give a shape that is negative inside, and a box around it in metres");
 }
 
-template <class F, class S, int D>
-template <class E>
-void FittedField<F, S, D>::measure(const E& execute) {
+template <int D>
+void FittedField<D>::measure(const AnyExecutor& execute) {
   // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Faces that meet at more form an edge.
   constexpr double opposite = -0.5;
   const double most = most_layers * spacing_, step = spacing_ / 8;

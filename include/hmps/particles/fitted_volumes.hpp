@@ -9,7 +9,9 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/particles/fitted_cloud.hpp"
 #include "hmps/particles/fitted_field.hpp"
 #include "hmps/particles/fitted_settings.hpp"
 #include "hmps/search/grid.hpp"
@@ -26,11 +28,12 @@ namespace hmps::inline HMPS_ABI::detail {
 }
 
 /// Whether the straight line from a particle to a sample leaves the body.
-template <class Field, class Point>
-[[nodiscard]] bool lies_across_gap(const Field& field, const Point& particle, const Point& sample) {
+template <int D>
+[[nodiscard]] bool lies_across_gap(const FittedField<D>& field, const Vector<double, D>& particle,
+                                   const Vector<double, D>& sample) {
   constexpr int looks = 16;
   for (int k = 1; k < looks; ++k) {
-    const Point on_the_way = particle + static_cast<double>(k) / looks * (sample - particle);
+    const Vector<double, D> on_the_way = particle + static_cast<double>(k) / looks * (sample - particle);
     if (field(on_the_way) > 0.05 * field.spacing()) return true;
   }
   return false;
@@ -38,8 +41,8 @@ template <class Field, class Point>
 
 /// Throws `InputError` for a part of the body that holds no particle and is connected to none: a cluster of samples
 /// about a spacing or more from their particles, of which even the closest one has its particle across a gap.
-template <class Field, class Cloud>
-void require_no_part_alone(const Field& field, const Cloud& cloud, const std::vector<Index>& owner,
+template <int D>
+void require_no_part_alone(const FittedField<D>& field, const FittedCloud<D>& cloud, const std::vector<Index>& owner,
                            const FitSettings& settings) {
   const auto& samples = field.samples();
   const double l0 = field.spacing(), beside = 0.45 * l0;
@@ -47,7 +50,7 @@ void require_no_part_alone(const Field& field, const Cloud& cloud, const std::ve
   std::vector<std::size_t> apart;
   for (std::size_t k = 0; k < samples.size(); ++k)
     if ((samples[k].place - place_of_particle(k)).norm() > 0.9 * l0) apart.push_back(k);
-  Grid<double, Field::dimension> grid;
+  Grid<double, D> grid;
   grid.build(apart.size(), beside, [&](std::size_t i) { return samples[apart[i]].place; });
   std::vector<char> seen(apart.size(), 0);
   std::vector<std::size_t> part;
@@ -72,7 +75,7 @@ void require_no_part_alone(const Field& field, const Cloud& cloud, const std::ve
       });
     }
     const auto& place = samples[nearest].place;
-    if (volume < std::pow(l0, Field::dimension) || !lies_across_gap(field, place_of_particle(nearest), place)) continue;
+    if (volume < std::pow(l0, D) || !lies_across_gap(field, place_of_particle(nearest), place)) continue;
     const Layering here = field.layering(place);
     throw InputError(message("hmps: a part of the body at (", place.transpose(), "), about ", here.thickness,
                              " m thick, holds no particle, and the nearest one lies across a gap; give a spacing of at "
@@ -82,14 +85,14 @@ void require_no_part_alone(const Field& field, const Cloud& cloud, const std::ve
 }
 
 /// The volume of each particle: each sample belongs to the nearest particle.
-template <class Field, class Cloud, class E>
-[[nodiscard]] std::vector<double> fitted_volumes(const Field& field, const Cloud& cloud, const FitSettings& settings,
-                                                 const E& execute) {
+template <int D>
+[[nodiscard]] std::vector<double> fitted_volumes(const FittedField<D>& field, const FittedCloud<D>& cloud,
+                                                 const FitSettings& settings, const AnyExecutor& execute) {
   const auto& samples = field.samples();
   const auto& particles = cloud.particles();
   constexpr Index nobody = std::numeric_limits<Index>::max();
   const double l0 = field.spacing(), farthest = settings.longest_edge * l0;
-  Grid<double, Field::dimension> grid;
+  Grid<double, D> grid;
   grid.build(particles.size(), l0, [&](std::size_t i) { return particles[i].place; });
   std::vector<Index> owner(samples.size());
   execute(samples.size(), [&](std::size_t k) {
