@@ -205,7 +205,7 @@ TEST(Sticking, RejectsWhatIsNoHistory) {
       EXPECT_NE(std::string(error.what()).find(with), std::string::npos) << error.what();
     }
   };
-  fails({}, "give restore_history what history() returned");
+  fails({}, "give restore_history the numbers that history() returned");
   auto cut = history, other = history, moved = history, unsorted = history;
   cut.pop_back();
   fails(cut, "all of it and unchanged");
