@@ -25,6 +25,6 @@ struct Ratio {
 [[nodiscard]] Table impact(bool quick);                               ///< speed at which a body passes through a wall
 [[nodiscard]] Table partners(bool quick);                             ///< ratios of mass and stiffness, friction
 [[nodiscard]] Table endurance(bool quick);                            ///< a million steps
-[[nodiscard]] Table door();                                           ///< rejected input, and the messages
+[[nodiscard]] Table rejected_input();                                 ///< rejected input, and the messages
 
 }  // namespace stability

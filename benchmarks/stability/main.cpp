@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
       {"impact", [&] { return impact(study.quick); }},
       {"partners", [&] { return partners(study.quick); }},
       {"endurance", [&] { return endurance(study.quick); }},
-      {"door", [] { return door(); }},
+      {"rejected_input", [] { return rejected_input(); }},
   };
   std::vector<std::string> names;
   for (const auto& [name, measure] : groups) names.push_back(name);

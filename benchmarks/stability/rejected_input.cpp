@@ -17,8 +17,8 @@ void bond(const std::vector<Vector>& points) {
 
 }  // namespace
 
-Table door() {
-  Table table{"door", {"Input", "What is said"}};
+Table rejected_input() {
+  Table table{"rejected_input", {"Input", "Message"}};
   const auto refuse = [&](const std::string& input, const std::function<void()>& call) {
     std::string words = "nothing";
     try {
