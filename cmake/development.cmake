@@ -7,8 +7,8 @@ target_compile_options(
   hmps_development
   INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${HMPS_WARNINGS_AS_ERRORS}>:-Werror>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # Collects garbage less often: a sixth of the compile time for a quarter more memory.
-  target_compile_options(hmps_development INTERFACE "SHELL:--param ggc-min-expand=200")
+  # Collects no garbage below a gigabyte: about a tenth of the compile time for a quarter more memory.
+  target_compile_options(hmps_development INTERFACE "SHELL:--param ggc-min-heapsize=1000000")
 endif()
 if(HMPS_SANITIZE)
   target_compile_options(
