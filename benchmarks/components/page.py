@@ -219,8 +219,8 @@ class Page:
         yield from ["## All components", ""]
         yield from words("Million items per second. The items are particles; in `contact` they are slaves, in "
                          "`metaball` pairs, and in `fill` sites of the lattice. The comments at the top of the files "
-                         "in `benchmarks/hmps` say what each benchmark does. GFLOP/s and GB/s are given where operations "
-                         "and bytes are counted.")
+                         "in `benchmarks/hmps` say what each benchmark does. GFLOP/s and GB/s are given where "
+                         "operations and bytes are counted.")
         rows = []
         for name in sorted(self.runs, key=lambda n: [(0, int(p), "") if p.isdigit() else (1, 0, p) for p in n.split("/")]):
             run = self.runs[name]
