@@ -79,25 +79,25 @@ class Page:
                          if c["type"] != "Instruction")
         yield from [f"# What a step costs with {processor()[1]}", ""]
         yield from words("This page is written by `benchmarks/run`; nothing in it is typed by hand. Every component of "
-                         "the library has its benchmarks, by Google Benchmark: `benchmarks/hmps/<topic>/<header>"
-                         ".bench.cpp`, one program, `hmps_bench`, which takes the arguments of Google Benchmark "
-                         "(`benchmarks/run --benchmark_filter=step/box`). All figures of a run are in "
+                         "the library has benchmarks, which use Google Benchmark, in `benchmarks/hmps/<topic>/<header>"
+                         ".bench.cpp`. They form one program, `hmps_bench`, which takes the arguments of Google "
+                         "Benchmark (`benchmarks/run --benchmark_filter=step/box`). All figures of a run are in "
                          "`results/benchmarks/benchmarks.json`.")
         others = int(self.context.get("others_running", 0))
-        yield from words(f"Compiled by {self.context.get('compiler', 'an unnamed compiler')} for this machine; run on "
-                         f"{machine()}, {self.context['num_cpus']} cores{caches}. Medians; one thread by the time of "
-                         f"the processor, several by the clock. When the run began, {others or 'no'} other "
-                         f"process{'' if others == 1 else 'es'} kept the machine busy" +
-                         (": figures for several threads mean little then." if others else ".") +
+        yield from words(f"Compiled by {self.context.get('compiler', 'an unnamed compiler')} for this machine and run "
+                         f"on {machine()}, {self.context['num_cpus']} cores{caches}. The figures are medians of "
+                         f"processor times for one thread and of wall-clock times for several. When the run began, "
+                         f"{others or 'no'} other process{'' if others == 1 else 'es'} kept the machine busy" +
+                         (", so figures for several threads mean little." if others else ".") +
                          (f" The repetitions of a benchmark scatter by {100 * statistics.median(self.scatter):.0f} % "
                           "(standard deviation, median over all benchmarks)." if self.scatter else ""))
 
     def step(self):
         yield from ["## The whole step", ""]
-        yield from words("A box with elastic, artificial and viscous force, kick and drift; in million particle-steps "
-                         "per second. Mixed is a state in double with kernels in float. Roofline is the share, for one "
-                         "thread, of what multiply-adds and memory allow (below); memory is what bonds and force keep, "
-                         "without the user's own state.")
+        yield from words("A step of a box with elastic, artificial and viscous force, kick and drift, in million "
+                         "particle-steps per second. Mixed means a state in double with kernels in float. Roofline is "
+                         "the rate on one thread as a share of what multiply-adds and memory allow (see below). Bytes "
+                         "are those that bonds and force keep, without the user's own state.")
         threads = self.threads()
         rows = []
         for kind in KINDS:
@@ -109,14 +109,15 @@ class Page:
                              digits(rates[0] / self.rate(f"step/box/{kind}/{PAPER}/1"), 2),
                              f"{100 * run['roofline']:.0f} %", f"{run['memory']:.0f}"])
         yield from table(["Kind", "Particles", *[f"{t} thread{'s' if t > 1 else ''}" for t in threads],
-                          *[f"{t} over 1" for t in threads[1:]], f"over {size(PAPER)}", "Roofline",
-                          "Bytes per particle"], rows)
+                          *[f"{t} threads over 1" for t in threads[1:]], f"over that of {size(PAPER)} particles",
+                          "Roofline", "Bytes per particle"], rows)
 
     def ratios(self):
-        yield from ["## Beside other code", ""]
-        yield from words(f"The same step at {size(PAPER)} particles on one thread. The reference "
-                         "(`benchmarks/hmps/force/reference.hpp`) has compressed rows of bonds, small Eigen vectors "
-                         "and two loops, the same algebra and the same law; a test holds it equal to the equations.")
+        yield from ["## Compared with other code", ""]
+        yield from words(f"The same step of {size(PAPER)} particles on one thread. The reference "
+                         "(`benchmarks/hmps/force/reference.hpp`) uses bonds in compressed rows, small Eigen vectors "
+                         "and two loops, with the same algebra and the same law; a test checks that it computes the "
+                         "equations.")
         rows = []
         for label, name in (("lattice", "box"), ("list of bonds", "list"), ("reference", "reference")):
             row = [label]
@@ -127,22 +128,23 @@ class Page:
             rows.append(row)
         yield from table(["Bonds", "float, M/s", "over the reference", "double, M/s", "over the reference"], rows)
         one = {kind: self.rate(f"step/box/{kind}/{PAPER}/1") for kind in KINDS}
-        yield from words(f"Float does {digits(one['float'] / one['double'], 2)} times, mixed "
+        yield from words(f"In the same time, float does {digits(one['float'] / one['double'], 2)} times and mixed "
                          f"{digits(one['mixed'] / one['double'], 2)} times the particle-steps of double.")
         thin = [(kind, *[f"step/thin/{kind}/{n}/1" for n in self.sizes(f"step/thin/{kind}/")]) for kind in KINDS]
         rows = [[kind, digits(self.rate(name)), digits(self.rate(name) / one[kind], 2),
                  f"{100 * self.runs[name]['lanes']:.0f} %", f"{100 * self.runs[f'step/box/{kind}/{PAPER}/1']['lanes']:.0f} %"]
                 for kind, name in thin]
         particles = thin[0][1].split("/")[3]
-        yield from words(f"Thin walls fill fewer lanes, since few neighbours follow each other: half a hollow ball of "
-                         f"{size(particles)} particles with a wall of three, one thread.")
-        yield from table(["Kind", "M/s", "over the box", "lanes that hold a bond", "in the box"], rows)
+        yield from words(f"Thin walls fill fewer lanes, because few neighbours are consecutive. The table is for half "
+                         f"a hollow ball of {size(particles)} particles with a wall of three particles, on one thread.")
+        yield from table(["Kind", "M/s", "over the box", "lanes that hold a bond", "such lanes in the box"], rows)
 
     def roofline(self):
-        yield from ["## Where the limits are", ""]
-        yield from words("Measured on one core: multiply-adds in registers, a = b + s c over working sets of three "
-                         "arrays, and 64 bytes from places that are not aligned in the first-level cache, as bonds read "
-                         "the values of neighbours that follow each other (`benchmarks/components/roofline.hpp`).")
+        yield from ["## Limits of the machine", ""]
+        yield from words("Three limits are measured on one core: multiply-adds in registers; memory, by a = b + s c "
+                         "over working sets of three arrays; and neighbours, by reading 64 bytes from unaligned "
+                         "addresses in the first-level cache, as bonds read the values of consecutive neighbours "
+                         "(`benchmarks/components/roofline.hpp`).")
         rows = [[f"multiply-adds, {kind}", f"{self.peak(kind) * 1e-9:.0f} GFLOP/s"]
                 for kind in ("float", "double")]
         rows += [[f"neighbours, {kind}", f"{self.runs[f'roofline/gather/{kind}']['bytes_per_second'] * 1e-9:.0f} GB/s"]
@@ -151,11 +153,12 @@ class Page:
             rows.append([f"memory, {size(n)} KiB",
                          f"{self.runs[f'roofline/triad/{n}']['bytes_per_second'] * 1e-9:.0f} GB/s"])
         yield from table(["Limit", "Rate"], rows)
-        yield from words("A particle-step is counted from the equations and the arrays (`benchmarks/components/cost.hpp`): "
-                         "operations of the sums as they stand in theory.md, whatever a kernel saves or wastes; bytes "
-                         "of each array once per pass. The share of the roofline is the particle-steps per second over "
-                         "the lower of what multiply-adds and memory (at the working set of the box) allow; neighbours "
-                         "is the share of the third limit.")
+        yield from words("The cost of a particle-step is counted from the equations and the arrays "
+                         "(`benchmarks/components/cost.hpp`): the operations are those of the sums as they stand in "
+                         "theory.md, whatever a kernel saves or wastes, and the bytes of each array count once per "
+                         "pass. Roofline is the rate of particle-steps over the lower of the rates that multiply-adds "
+                         "and memory (at the working set of the box) allow; neighbours is the share of the third "
+                         "limit.")
         rows = []
         for kind in KINDS:
             for n in self.sizes(f"step/box/{kind}/"):
@@ -167,10 +170,10 @@ class Page:
         yield from table(["Kind", "Particles", "FLOP", "Bytes", "Operations", "Traffic", "Roofline", "Neighbours"], rows)
 
     def parts(self):
-        yield from ["## What the time goes into", ""]
-        yield from words(f"The parts of the step alone, each with its own passes over the particles, at {size(PAPER)} "
+        yield from ["## Where the time goes", ""]
+        yield from words(f"Each part of the step run alone, with its own passes over the particles, for {size(PAPER)} "
                          "particles on one thread: nanoseconds per particle, and the share of the peak of "
-                         "multiply-adds that each reaches.")
+                         "multiply-adds that the part reaches.")
         names = {"deformation gradient": "gradient/{}/" + PAPER + "/1", "stress of the law": "law/mooney_rivlin/{}",
                  "elastic force, with both": "elastic/{}/" + PAPER + "/1",
                  "artificial force, with the gradient": "artificial/{}/" + PAPER + "/1",
@@ -193,19 +196,20 @@ class Page:
             run, box = self.runs[f"step/box/{kind}/{PAPER}/1"], self.sizes(f"step/box/{kind}/")[0]
             cached = self.nanoseconds(f"step/box/{kind}/{box}/1")
             yield from words(
-                f"In {kind}: the three forces, kick and drift one after the other would take "
-                f"{digits(apart / whole, 2)} times as long as together. Of the step, the first sweep (bonds to F) takes "
+                f"In {kind}, the three forces, kick and drift would take {digits(apart / whole, 2)} times as long one "
+                f"after the other as they take together. Of the time of the step, the first sweep (bonds to F) takes "
                 f"about {100 * time['deformation gradient'] / whole:.0f} %, the law "
                 f"{100 * time['stress of the law'] / whole:.0f} %, the second sweep of the elastic force "
-                f"{100 * second / whole:.0f} %, kick and drift {100 * time['kick and drift'] / whole:.0f} %. "
-                f"{100 * (1 - run['lanes']):.1f} % of the lanes of its rows hold no bond. What does not come from the "
-                f"nearest caches costs {100 * (1 - cached / whole):.0f} %: so much less time per particle does a box of "
-                f"{size(box)} take. Its bonds read their neighbours at {100 * run['neighbours']:.0f} % of the rate that "
-                "the core allows for reading alone.")
+                f"{100 * second / whole:.0f} %, and kick and drift {100 * time['kick and drift'] / whole:.0f} %. "
+                f"{100 * (1 - run['lanes']):.1f} % of the lanes of its rows hold no bond. Data that do not fit "
+                f"into the nearest caches cost {100 * (1 - cached / whole):.0f} %: a box of {size(box)} "
+                f"particles takes that much less time per particle. The bonds read their neighbours at "
+                f"{100 * run['neighbours']:.0f} % of the rate that the core allows for reading alone.")
 
     def setup(self):
         yield from ["## Set-up", ""]
-        yield from words("Filling the lattice, finding the bonds and inverting A, one thread, kernels in double.")
+        yield from words("Time to fill the lattice, find the bonds and invert A, on one thread, with kernels in "
+                         "double.")
         sizes = self.sizes("setup/")
         rows = [[size(n), digits(n / self.rate(f"setup/{n}") * 1e-6), digits(1 / self.rate(f"setup/{n}"), 3)]
                 for n in sizes]
@@ -213,9 +217,10 @@ class Page:
 
     def components(self):
         yield from ["## All components", ""]
-        yield from words("Million items per second: particles, in contact slaves, in metaball pairs, in fill sites of "
-                         "the lattice; the heads of the files in `benchmarks/hmps` say what each does. GFLOP/s and GB/s "
-                         "where operations and bytes are counted.")
+        yield from words("Million items per second. The items are particles; in `contact` they are slaves, in "
+                         "`metaball` pairs, and in `fill` sites of the lattice. The comments at the top of the files "
+                         "in `benchmarks/hmps` say what each benchmark does. GFLOP/s and GB/s are given where "
+                         "operations and bytes are counted.")
         rows = []
         for name in sorted(self.runs, key=lambda n: [(0, int(p), "") if p.isdigit() else (1, 0, p) for p in n.split("/")]):
             run = self.runs[name]

@@ -184,7 +184,7 @@ report::Table bent_strip(bool quick) {
   using report::places;
   report::Table table{
       .name = "bend",
-      .header = {"particles", "layers", "E_hat", "thickness / radius", "moment / exact", "from to", "scatter"}};
+      .header = {"particles", "layers", "E_hat", "thickness / radius", "moment / exact", "range", "scatter"}};
   const std::vector<double> bends = quick ? std::vector<double>{0.25} : std::vector<double>{0.05, 0.25, 0.5};
   for (const double ratio : bends)
     table.check(agrees_with_rivlin(ratio / wall), "the exact moment at " + places(ratio, 2) + " is not Rivlin's");

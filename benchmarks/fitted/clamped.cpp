@@ -84,7 +84,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 
 report::Table twisted_strip(bool quick, bool own_volumes) {
   return compared({.name = own_volumes ? "strip_volumes" : "strip",
-                   .of = own_volumes ? "the strip of own volumes" : "the strip",
+                   .of = own_volumes ? "the strip with own volumes" : "the strip",
                    .measured = "torque (uN m)",
                    .answer = 1e6 * torque,
                    .digits = 3,

@@ -70,7 +70,7 @@ constexpr double answer = 1.90, first_frequency = 6.34;
 report::Table plate_about_one_axis(const std::vector<double>& spacings, bool quick) {
   using report::places;
   report::Table table{.name = "plate",
-                      .header = {"spacing (mm)", "layers", "E_hat", "tip (mm)", "from to", "scatter", "error"}};
+                      .header = {"spacing (mm)", "layers", "E_hat", "tip (mm)", "range", "scatter", "error"}};
   const std::vector<double> tilts = quick ? std::vector<double>{30} : std::vector<double>{15, 30, 45, 65};
   for (const double l0 : spacings)
     for (const Choice choice : {Choice::waves, Choice::sheet, Choice::thin_wall}) {
@@ -93,8 +93,8 @@ report::Table plate_about_one_axis(const std::vector<double>& spacings, bool qui
 report::Table plate_about_any_axis(const std::vector<double>& spacings, bool quick) {
   using report::places;
   report::Table table{.name = "any_axis",
-                      .header = {"spacing (mm)", "layers", "placements", "tip (mm)", "from to", "scatter", "error",
-                                 "frequency (Hz)", "from to", "scatter", "error"}};
+                      .header = {"spacing (mm)", "layers", "placements", "tip (mm)", "range", "scatter", "error",
+                                 "frequency (Hz)", "range", "scatter", "error"}};
   for (const double l0 : spacings) {
     const auto placements = any_placements(quick ? 2 : l0 < 1.5e-3 ? 6 : 12, l0);
     std::vector<double> tips, frequencies;

@@ -31,7 +31,7 @@ constexpr double answer = 0.2151;                                 // mm, by fini
 report::Table pinched_ring(bool quick) {
   using report::places;
   report::Table table{.name = "ring",
-                      .header = {"layers", "placements", "squeezed by (mm)", "from to", "scatter", "error"}};
+                      .header = {"layers", "placements", "squeezed by (mm)", "range", "scatter", "error"}};
   for (const int layers : quick ? std::vector<int>{2} : std::vector<int>{2, 3, 4}) {
     const double l0 = wall / layers;
     const auto placements = any_placements(quick ? 2 : 6, l0);

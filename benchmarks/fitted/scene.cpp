@@ -227,7 +227,7 @@ Spread spread(const std::vector<double>& values) {
 report::Table compared(const Comparison& with, bool quick) {
   using report::places;
   report::Table table{.name = with.name,
-                      .header = {"layers", "placements", with.measured, "from to", "scatter", "error"}};
+                      .header = {"layers", "placements", with.measured, "range", "scatter", "error"}};
   for (std::size_t k = 0; k < (quick ? 1 : with.layers.size()); ++k) {
     const int layers = with.layers[k];
     std::vector<double> found;

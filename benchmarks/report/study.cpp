@@ -36,7 +36,7 @@ int Study::run(int argc, char** argv, const std::function<void()>& measure) {
 
 void Study::publish(const Table& table, const Picture& picture) {
   std::string text = '\n' + table.markdown() + '\n';
-  for (const std::string& words : table.broken) text += "Does not hold: " + words + ".\n";
+  for (const std::string& words : table.broken) text += "Failed check: " + words + ".\n";
   whole_ = whole_ && table.broken.empty();
   std::printf("%s\n%s\n", table.name.c_str(), text.c_str());
   std::fflush(stdout);

@@ -212,7 +212,8 @@ std::string collide(const typename Meeting<S>::Settings& settings, double sidewa
 
 Table impact(bool quick) {
   Table table{"impact",
-              {"Layers of the wall", "Step / stable", "Double: least speed that fails, m/s", "How", "Float", "How"}};
+              {"Layers of the wall", "Step / stable", "Double: lowest speed that fails, m/s", "How",
+               "Float: lowest speed that fails, m/s", "How"}};
   for (const int layers : quick ? std::vector<int>{2} : std::vector<int>{1, 2, 3, 4})
     for (const double share : quick ? std::vector<double>{0.5} : std::vector<double>{0.1, 0.25, 0.5, 0.9}) {
       std::vector<std::string> row{std::to_string(layers), digits(share)};
@@ -238,7 +239,8 @@ Table impact(bool quick) {
 }
 
 Table partners(bool quick) {
-  Table table{"partners", {"Cube over its partner", "Value", "rho of the contact", "Energy, double", "Float"}};
+  Table table{"partners",
+              {"Cube over its partner", "Value", "Density used by contact", "Energy, double", "Energy, float"}};
   const auto add = [&](const std::string& name, double value, const std::string& rho, double heavy, double stiff,
                        double contact_density, double friction, double sideways) {
     const auto settings = [&](auto s) {

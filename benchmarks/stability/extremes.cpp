@@ -62,7 +62,7 @@ std::vector<std::string> recover(Table& table, const Law& law, double factor) {
     start(2, 2) = factor;
     table.check(std::isfinite(law.energy(start)) && law.energy(start) > 0, label + ": no finite energy");
     table.check(law.first_piola_kirchhoff(start)(2, 2) < 0, label + ": the force does not push back");
-    table.check(row[3] != "none", label + ": Continued does not recover");
+    table.check(row[3] != "none", label + ": the cube does not recover with Continued");
   }
   return row;
 }
@@ -150,7 +150,7 @@ std::vector<std::string> twist_to_failure(const Law& law, bool quick) {
     end = "fails at " + digits(omega) + " rad/s by " + ending.why + " after " + digits(1e3 * ending.time) + " ms";
     break;
   }
-  return {"twist of a column, started at", law_name<Law>(), name_of<S>(), end, "-"};
+  return {"twist of a column", law_name<Law>(), name_of<S>(), end, "-"};
 }
 
 /// A bar of length 10 H whose ends are led along a circle, at 0.2 s for 360 degrees: the angle of bend that it reaches.
@@ -189,9 +189,9 @@ void for_each_law(Visit&& visit) {
 }  // namespace
 
 Table inversion(bool quick) {
-  Table table{
-      "inversion",
-      {"Law", "Scalar", "Height times", "Recovers with the share of the stable step", "In the end", "Fastest, m/s"}};
+  Table table{"inversion",
+              {"Law", "Scalar", "Height times", "Recovers at this share of the stable step", "At the end",
+               "Largest speed, m/s"}};
   const std::vector<double> factors =
       quick ? std::vector<double>{0.1, -0.2} : std::vector<double>{0.5, 0.3, 0.1, 0.02, 0, -0.1, -0.3, -0.5, -1};
   for (const double factor : factors) {
@@ -204,7 +204,7 @@ Table inversion(bool quick) {
 }
 
 Table deformation(bool quick) {
-  Table table{"deformation", {"Extreme", "Law", "Scalar", "Outcome", "Then"}};
+  Table table{"deformation", {"Deformation", "Law", "Scalar", "Outcome", "Afterwards"}};
   const auto both = [&](auto&& problem) {
     table.rows.push_back(problem(double{}));
     if (!quick) table.rows.push_back(problem(float{}));

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   std::string only;
   study.app.add_option("--only", only, "one group alone")->type_name("NAME")->check(CLI::IsMember(names));
   return study.run(argc, argv, [&] {
-    const report::Picture picture{"stability.png", "Step and limit of stable_step over the largest step that holds",
+    const report::Picture picture{"stability.png", "Step and limit of stable_step over the largest stable step",
                                   [&](const auto& path) { draw(ratios, path); }};
     for (const auto& [name, measure] : groups)
       if (only.empty() || only == name) study.publish(measure(), name == "courant" ? picture : report::Picture{});

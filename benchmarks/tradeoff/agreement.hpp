@@ -78,23 +78,23 @@ struct Opinion {
     else if (o.better.empty())
       more.push_back(o.setting + ", at " + o.time() + " (" + o.worse + ")");
     else
-      split.push_back(o.setting + ", at " + o.time() + " (less: " + o.better + "; more: " + o.worse + ")");
+      split.push_back(o.setting + ", at " + o.time() + " (smaller: " + o.better + "; larger: " + o.worse + ")");
   }
   std::string names;
   for (const Swept& one : all) names += (names.empty() ? "" : ", ") + one.scene.name;
   std::string text =
       "## What the scenes agree on\n\n" +
       wrapped("Settings that at least two of the scenes " + names +
-              " tried beside the same standard. What errs less in one scene and more in another may rest "
-              "on errors that happen to cancel.");
+              " compared with the same standard. Where a setting reduces errors in one scene and increases them in "
+              "another, errors may happen to cancel.");
   const auto part = [&](const char* title, const std::vector<std::string>& lines) {
     if (!lines.empty()) text += std::string("\n### ") + title + "\n\n" + bullets(lines);
   };
-  part("Errs less", less);
-  part("Makes no difference to errors", none);
-  part("Errs more", more);
-  part("Errs less here and more there", split);
-  part("Breaks down", broken);
+  part("Smaller errors", less);
+  part("No difference in errors", none);
+  part("Larger errors", more);
+  part("Smaller errors in some cases, larger in others", split);
+  part("Failures", broken);
   return text;
 }
 

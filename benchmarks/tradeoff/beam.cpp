@@ -89,7 +89,7 @@ class Vibration {
         drifted = std::max(drifted, std::abs(energy() / start - 1));
         if (!(drifted < 10) || time > 3 / expected_)
           throw hmps::StateError(
-              examples::message("the beam broke down or does not swing back at ", rounded(time), " s"));
+              examples::message("the beam broke down, or had not swung back, at ", rounded(time), " s"));
       }
       if (back) return meter_.outcome({0.5 / ((steps - now / (now - before)) * dt_), drifted});
       before = now;
@@ -214,9 +214,9 @@ Scene vibration(const Scale& scale, End held) {
 
 const std::string body =
     " of 500 x 50 x 50 mm (E = 0.1 MPa, 1000 kg/m3) swings for half a period in its first bending mode, without "
-    "viscosity, by 2.5 mm at its end. The frequency is compared with that of a Timoshenko beam of the same Poisson's "
-    "ratio, the energy with what it was at the start: its largest deviation counts. The step is a share of the largest "
-    "stable one; mixed means kernels in float and state in double.";
+    "viscosity, with an amplitude of 2.5 mm at its end. The frequency is compared with that of a Timoshenko beam of "
+    "the same Poisson's ratio, and the energy with its value at the start: its error is the largest deviation. The "
+    "step is given as a share of the largest stable step; mixed means kernels in float and state in double.";
 
 }  // namespace
 
@@ -225,8 +225,8 @@ Scene beam(const Scale& scale) {
   scene.name = "beam";
   scene.title = "A clamped beam";
   scene.description = "A beam" + body +
-                      " The clamp holds the layers of particles beyond x = 0, the next of which is half a spacing "
-                      "behind; what this costs in accuracy is part of the error.";
+                      " The clamp holds the layers of particles behind x = 0, the nearest of which lies half a "
+                      "spacing behind it; what this costs in accuracy is part of the error.";
   return scene;
 }
 

@@ -153,13 +153,13 @@ Scene contact(const Scale& scale) {
       .name = "contact",
       .title = "A block pressed on a wall and slid along it",
       .description =
-          "A block of soft tissue of 12 x 12 x 8 mm (E = 20 kPa, 1000 kg/m3, viscosity 5e-3 m2/s) is pressed by 1 kPa "
-          "and slid at 0.1 m/s over 4 mm of a rigid wall with the friction coefficient 0.2. The wall's lattice lies "
-          "along the slide, then at 30 degrees to it, and the worse of the two counts. Friction is the mean tangential "
-          "over the mean normal force; the ripple is the root mean square of the normal force about the load. The "
-          "step is a share of what is stable without contact, k~ that of the standard cadence; at a cadence of m the "
-          "contact acts on each m-th step only, with the impulse of all. The margin is how far particles move before "
-          "the lists of candidates are rebuilt.",
+          "A block of soft tissue of 12 x 12 x 8 mm (E = 20 kPa, 1000 kg/m3, viscosity 5e-3 m2/s) is pressed on a "
+          "rigid wall by 1 kPa and slid along it over 4 mm at 0.1 m/s, with a friction coefficient of 0.2. The "
+          "lattice of the wall lies along the slide in one run and at 30 degrees to it in another; the worse of the "
+          "two results counts. Friction is the mean tangential force over the mean normal force; the ripple is the "
+          "root mean square deviation of the normal force from the load. The step is given as a share of the stable "
+          "step without contact, and k~ is that at the standard cadence. At a cadence of m, contact acts in every "
+          "m-th step only, with the impulse of m steps. The margin is that of the Verlet list.",
       .quantities = {{.name = "friction"},
                      {.name = "the ripple of the normal force", .scale = 1},
                      {.name = "friction at 0 degrees", .headline = false},

@@ -34,23 +34,25 @@ std::string preface() {
   return "# What accuracy costs\n\n" +
          wrapped(
              "This page and its pictures are written by `benchmarks/tradeoff/run`; nothing in it is typed by hand. "
-             "`benchmarks/tradeoff/run --help` lists what else it does; `results/tradeoff` gets the tables of all "
-             "runs. A scene of your own is one file of less than a hundred lines: start from "
+             "`benchmarks/tradeoff/run --help` lists its options; the tables of all runs go to `results/tradeoff`. A "
+             "scene of your own takes one file of less than a hundred lines: start from "
              "`benchmarks/tradeoff/sag.cpp`.") +
          '\n' +
          bullets(
-             {"**Error**: signed, in per cent of the right answer, or of what the quantity is named for.",
+             {"**Error**: signed, in per cent of the right answer or, if that is zero, of the energy or the load "
+              "itself. The swallow has scales of its own.",
               "**Particle-steps** and **memory** are counted, not timed. Memory is what the scene holds while "
               "stepping.",
-              "**Time** is that of one processor over that of the standard settings, each run timed beside the "
-              "standard; median of up to five. Differences below a tenth mean nothing.",
-              "**Front**: the runs that no other run beats in error and cost at once. A run can be on it because its "
-              "error happens to cross zero; \"what to choose\" therefore names runs that keep the error when the "
-              "spacing alone is refined, and says where none was.",
-              "**take** costs less at no larger an error, or errs less at no larger a cost; **pay** errs less for "
-              "more; **save** errs more for less; **leave** gains nothing; **weigh** has one error smaller and another "
-              "larger; **avoid** does not run."}) +
-         '\n' + wrapped("Compiled by " + report::compiler() + ", run on " + report::processor() + ".");
+              "**Time** is processor time relative to that of the standard settings. Each run is timed beside a run "
+              "of the standard, up to five times, and the median is given. Differences below a tenth mean nothing.",
+              "**Front**: the runs that no other run beats in both error and cost. A run can be on the front because "
+              "its error happens to cross zero; \"What to choose\" therefore names runs that stay within the limit "
+              "when the spacing alone is refined, and says where no finer run was made.",
+              "**take**: a lower cost with no larger error, or a smaller error at no higher cost; **pay**: a smaller "
+              "error at a higher cost; **save**: a larger error at a lower cost; **leave**: no gain; **weigh**: one "
+              "error is smaller, another larger; **no matter**: neither errors nor cost differ; **avoid**: the run "
+              "fails."}) +
+         '\n' + wrapped("Compiled by " + report::compiler() + " and run on " + report::processor() + ".");
 }
 
 }  // namespace

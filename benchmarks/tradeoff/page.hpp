@@ -39,9 +39,10 @@ inline void add_run(report::Table& table, const Scene& scene, const std::string&
   for (std::size_t k = 0; k < scene.parameters.size(); ++k)
     text +=
         (k > 0 ? ", " : "") + scene.parameters[k].name + ' ' + scene.parameters[k].shown(scene.parameters[k].standard);
-  return text + ". It takes " + counted(standard.outcome.particle_steps) + " particle-steps, " +
-         rounded(standard.outcome.seconds, 2) + " s of one processor here and " +
-         bytes(static_cast<double>(standard.outcome.bytes)) + ". " + std::to_string(sweep.runs.size()) + " runs.";
+  return text + ". A run takes " + counted(standard.outcome.particle_steps) + " particle-steps, " +
+         rounded(standard.outcome.seconds, 2) + " s on this machine and " +
+         bytes(static_cast<double>(standard.outcome.bytes)) + ". The sweep has " + std::to_string(sweep.runs.size()) +
+         " runs.";
 }
 
 }  // namespace detail
@@ -56,7 +57,7 @@ inline void add_run(report::Table& table, const Scene& scene, const std::string&
           bullets(target_rules(scene, sweep));
   if (const auto rules = halving_rules(scene, sweep); !rules.empty())
     text += "\n### What refinement costs\n\n" + bullets(rules);
-  report::Table single = detail::runs_table(scene, "differs from the standard by");
+  report::Table single = detail::runs_table(scene, "difference from the standard");
   detail::add_run(single, scene, "nothing", standard);
   for (const Parameter& p : scene.parameters)
     for (const Value& value : p.values)

@@ -74,11 +74,11 @@ enum class Verdict {
 /// "15 times the particle-steps, 14 times the time and 7.6 times the memory"
 [[nodiscard]] inline std::string compared_cost(const Trial& run, const Trial& beside) {
   const auto times = [](double ratio, const char* what) {
-    return std::abs(ratio - 1) < 0.05 ? std::string("as much ") + what : rounded(ratio, 2) + " times the " + what;
+    return std::abs(ratio - 1) < 0.05 ? std::string("the same ") + what : rounded(ratio, 2) + " times the " + what;
   };
   const double steps = run.outcome.particle_steps / beside.outcome.particle_steps;
-  const std::string steps_text =
-      std::abs(steps - 1) < 0.005 ? "as many particle-steps" : rounded(steps, 3) + " times the particle-steps";
+  const std::string steps_text = std::abs(steps - 1) < 0.005 ? "the same number of particle-steps"
+                                                             : rounded(steps, 3) + " times the particle-steps";
   return steps_text + ", " + times(run.relative_seconds / beside.relative_seconds, "time") + " and " +
          times(static_cast<double>(run.outcome.bytes) / static_cast<double>(beside.outcome.bytes), "memory");
 }
@@ -141,7 +141,7 @@ enum class Verdict {
       lines.push_back("**" + scene.quantities[q].name + " within " + rounded(limit) +
                       " %**: " + scene.difference(best->settings, sweep.standard().settings) + "; " +
                       counted(best->outcome.particle_steps) + " particle-steps, " + rounded(best->relative_seconds, 2) +
-                      " of the standard's time, " + bytes(static_cast<double>(best->outcome.bytes)) +
+                      " times the standard's time, " + bytes(static_cast<double>(best->outcome.bytes)) +
                       (finest(scene, sweep, *best) ? " (nothing finer was run to confirm it)" : "") + ".");
     }
     rules.insert(rules.end(), lines.begin(), lines.end());

@@ -91,11 +91,11 @@ Scene swallow(const Scale& scale) {
       .name = "swallow",
       .title = "The swallow",
       .description =
-          "Case X1 of `examples/swallowing`, on all cores. The time of downfolding is in seconds, so that 1 % "
-          "of error is 10 ms; the smallest angle of the tip is in hundreds of degrees, so that 1 % is one "
-          "degree. The step is given over the automatic one. Time is by the wall clock, of one run each, which on a "
-          "shared machine can differ by a third: what is said of choices goes by particle-steps. Memory is the most "
-          "that was allocated, building the scene included.",
+          "Case X1 of `examples/swallowing`, on all cores. The error of the time of downfolding is in per cent of a "
+          "second, so 1 % is 10 ms; that of the smallest angle of the tip is in per cent of 100 degrees, so 1 % is "
+          "one degree. The step is given relative to the automatic one. Time is wall-clock time of one run each and "
+          "can vary by a third on a shared machine, so the advice on settings is based on particle-steps. Memory is "
+          "the largest amount allocated, including while the scene is built.",
       .quantities = {{.name = "the time of downfolding", .unit = "s", .scale = 1},
                      {.name = "the smallest angle of the tip", .unit = "degrees", .scale = 100}},
       .parameters =
@@ -123,11 +123,13 @@ Scene swallow(const Scale& scale) {
   if (const auto finer = finer_result(scale.finer, 1.8e-3)) {
     const std::vector<double> answer{*finer->fold_time, finer->tip_angle_min};
     scene.known = [answer](const Settings&) { return answer; };
-    scene.description += " It is compared with a run at " + rounded(1e3 * finer->spacing) + " mm in " + finer->scalar +
-                         ", which took " + rounded(finer->wall_seconds / 60, 2) + " minutes.";
+    scene.description += " The results are compared with a run at " + rounded(1e3 * finer->spacing) + " mm in " +
+                         finer->scalar + ", which took " + rounded(finer->wall_seconds / 60, 2) + " minutes.";
   } else {
     scene.reference = scene.standard().with("spacing", 1.8e-3).with("scalar", "double");
-    scene.description += " It is compared with its own finest run, for want of a finer one below results/swallowing.";
+    scene.description +=
+        " The results are compared with the finest run of the sweep, because there is no finer one "
+        "below results/swallowing.";
   }
   return scene;
 }

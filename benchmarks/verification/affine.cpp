@@ -113,9 +113,10 @@ Problem affine_patch() {
       .name = "affine patch",
       .title = "1. Affine patch",
       .text =
-          "A ball, a cube, a sheet of two layers and a ball with a hole, in two and in three dimensions, once on the "
-          "lattice and once with particles shifted at random by up to a fifth of a spacing, are mapped by one affine "
-          "map. Every particle should see its gradient; particles four spacings inside should feel no elastic force.",
+          "One affine map is applied to a ball, a cube, a sheet of two layers and a ball with a hole, in two and in "
+          "three dimensions, once on the lattice and once with particles shifted at random by up to a fifth of a "
+          "spacing. Every particle should have the gradient of the map, and particles more than four spacings inside "
+          "the surface should feel no elastic force.",
       .quantities =
           {{.name = "F", .unit = "1", .answer = 0, .source = "exact", .scale = 1, .bound = 1e-12},
            {.name = "force inside, on the lattice",
@@ -130,17 +131,17 @@ Problem affine_patch() {
       .methods = {paper},
       .run = affine,
       .remark =
-          "On particles that are shifted from the lattice a uniform stress is not in equilibrium: the sums of "
-          "w A^-1 r0 over the bonds do not cancel there, and refining does not help. Statics and waves want "
-          "the lattice; a cloud is for what needs F alone."};
+          "On particles that are shifted from the lattice, a uniform stress is not in equilibrium: the sums of w "
+          "A^-1 r0 over the bonds do not cancel there, and refinement does not help. Statics and waves need the "
+          "lattice; such a cloud is suitable only where nothing but F is needed."};
 }
 
 Problem rigid_motion() {
   return {.name = "rigid motion",
           .title = "2. Rigid motion",
           .text =
-              "A ball of the seed law, in two and in three dimensions, is moved by three times its radius and turned "
-              "by 0 to 100 degrees. There should be neither stress nor force.",
+              "A ball of the paper's soft tissue, in two and in three dimensions, is moved by three times its radius "
+              "and turned by 0 to 100 degrees. There should be neither stress nor force.",
           .quantities =
               {{.name = "stress", .unit = "kappa", .answer = 0, .source = "exact", .scale = 1, .bound = 1e-13},
                {.name = "force", .unit = "kappa / l0", .answer = 0, .source = "exact", .scale = 1, .bound = 1e-13}},
@@ -160,10 +161,10 @@ Problem dispersion() {
   return {.name = "dispersion",
           .title = "28. Waves in the lattice",
           .text =
-              "The force on a particle inside the lattice under plane waves of 2 to 40 spacings along an axis, "
+              "The force on a particle inside the lattice in plane waves of 2 to 40 spacings along an axis, "
               "longitudinal and transverse, for linear elasticity. With a = sum w r^2 / 3, g = sum w r sin(k r) / a "
-              "and q = 2 sum w (1 - cos k r) / a it should be -(M g^2 + E_hat (q - g^2)) times the displacement, "
-              "M being lambda + 2 mu or mu.",
+              "and q = 2 sum w (1 - cos k r) / a, the force should be -(M g^2 + E_hat (q - g^2)) times the "
+              "displacement, where M is lambda + 2 mu or mu.",
           .quantities = {{.name = "stiffness", .unit = "1", .answer = 0, .source = "exact", .scale = 1, .bound = 1e-9}},
           .across = "wavelength in spacings",
           .sizes = {2, 3, 5, 10, 40},

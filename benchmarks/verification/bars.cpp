@@ -112,9 +112,10 @@ Problem free_bar() {
       .name = "free bar",
       .title = "6. Vibrating bar",
       .text =
-          "A free bar of 500 x 50 x 50 mm, E = 0.1 MPa, nu = 0.3, rho = 1000, is started in the shape of its first two "
-          "bending modes (Euler and Bernoulli) and of its first mode of torsion, by small speeds. The frequencies of "
-          "finite elements that it is compared with are those of a free bar; a clamped one has 0.32 Hz.",
+          "A free bar of 500 x 50 x 50 mm, E = 0.1 MPa, nu = 0.3, rho = 1000 kg/m3, is started with small velocities "
+          "in the shape of its first two bending modes (Euler-Bernoulli) and of its first torsional mode. The "
+          "frequencies are compared with those of finite elements for a free bar; a clamped bar would vibrate at "
+          "0.32 Hz.",
       .quantities =
           {{.name = "first bending", .unit = "Hz", .answer = 1.9869, .source = "finite elements", .uncertainty = 5e-4},
            {.name = "second bending", .unit = "Hz", .answer = 5.176, .source = "finite elements", .uncertainty = 0.002},
@@ -124,9 +125,9 @@ Problem free_bar() {
       .methods = methods,
       .run = ring,
       .remark =
-          "With E_hat = E the bar is too stiff, and the error falls with the second order. With 4/3 mu the bending "
-          "frequencies are near from three particles on and pass the answer, so that no order can be given; torsion, "
-          "which moves the edges most, comes down from above with both."};
+          "With E_hat = E the bar is too stiff, and the error decreases with second order. With 4/3 mu the bending "
+          "frequencies are close to the answer from three particles on and pass it, so no order can be given. The "
+          "frequency of torsion, which moves the edges most, approaches the answer from above with both."};
 }
 
 Problem rubber_bar() {
@@ -137,18 +138,18 @@ Problem rubber_bar() {
       .name = "rubber bar",
       .title = "6 b. Thin bar of stiff volume",
       .text = examples::message(
-          "A free bar of 48 x 4.8 x 4.8 mm, mu = 7 kPa, Mooney-Rivlin, rho = 1000, is started in the shape of its "
-          "first bending mode, for three ratios of bulk and shear modulus. The answer is the frequency of a "
-          "Timoshenko beam, which for the bar of problem 6 is ",
-          std::round(1e4 * theory) / 1e4, " Hz where finite elements give 1.9869 Hz."),
+          "A free bar of 48 x 4.8 x 4.8 mm, mu = 7 kPa, Mooney-Rivlin, rho = 1000 kg/m3, is started in the shape of "
+          "its first bending mode, for three ratios of the bulk modulus to the shear modulus. The answer is the "
+          "frequency of a Timoshenko beam; for the bar of problem 6 this theory gives ",
+          std::round(1e4 * theory) / 1e4, " Hz, and finite elements give 1.9869 Hz."),
       .quantities = {},
       .across = "particles across the height",
       .sizes = {2, 3, 4, 5, 6, 8},
       .methods = {paper, shear_wave, mean_dilatation, soft},
       .run = ring_rubber,
       .remark =
-          "From three particles on mean dilatation with 4/3 mu is right whatever the ratio, and so is 4/3 mu alone in "
-          "a bar as narrow as high; in wide sheets it is not, where their number of layers is even (see "
+          "From three particles on, mean dilatation with 4/3 mu is right at any ratio. So is 4/3 mu alone in a bar "
+          "as narrow as it is high, but not in wide sheets with an even number of layers (see "
           "[theory.md](../theory.md)). A bar of two particles is too stiff with both, and right with mean dilatation "
           "and E_hat = mu."};
   for (const double ratio : bulk_over_shear)
@@ -164,9 +165,10 @@ Problem bending_column() {
   return {.name = "bending column",
           .title = "17. Bending column",
           .text =
-              "A column of 1 x 1 x 6 m, neo-Hookean with E = 17 MPa and nu = 0.45, rho = 1100, its base fixed, starts "
-              "with velocities across that grow to 10 m/s at its top. The displacement of a corner of the top at "
-              "0.5 s, and the largest deviation from seven values between 0.2 and 0.9 s.",
+              "A column of 1 x 1 x 6 m, neo-Hookean with E = 17 MPa and nu = 0.45, rho = 1100 kg/m3, has a fixed "
+              "base and starts with transverse velocities that increase to 10 m/s at its top. The results are the "
+              "displacement of a corner of the top at 0.5 s, and the largest deviation from the answer at seven "
+              "times between 0.2 and 0.9 s.",
           .quantities = {{.name = "displacement at 0.5 s",
                           .unit = "m",
                           .answer = 3.077,
@@ -184,8 +186,8 @@ Problem bending_column() {
           .run = throw_column,
           .parity = true,
           .remark =
-              "With E_hat = E the column is far too stiff. With 4/3 mu the clamp is what is left, about as large as "
-              "the answer's own error."};
+              "With E_hat = E the column is far too stiff. With 4/3 mu the remaining error is that of the clamp, and "
+              "about as large as the answer's own error."};
 }
 
 }  // namespace verification

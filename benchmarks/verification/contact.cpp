@@ -143,9 +143,9 @@ Problem contact_patch() {
       .name = "contact patch",
       .title = "24. Contact patch",
       .text =
-          "Two blocks of 1 x 0.5 m in plane strain, linear, E = 1 MPa, nu = 0, one above the other, are closed by 10 "
-          "mm. The pressure between them should be 10 kPa everywhere. The penalty is four times as stiff as a layer of "
-          "particles.",
+          "Two blocks of 1 x 0.5 m in plane strain, linear, with E = 1 MPa and nu = 0, lie one above the other and "
+          "are pressed together by 10 mm. The pressure between them should be 10 kPa everywhere. The penalty is four "
+          "times as stiff as a layer of particles.",
       .quantities = {{.name = "mean pressure", .unit = "kPa", .answer = 10, .source = "exact"},
                      {.name = "spread (rms)", .unit = "%", .answer = 0, .source = "exact", .scale = 100},
                      {.name = "spread without three columns at each side",
@@ -159,19 +159,19 @@ Problem contact_patch() {
       .methods = methods,
       .run = press,
       .remark =
-          "The mean is nearly right: the penalty gives way and the held faces stiffen by about as much. Inside, the "
-          "pressure is even. At the free sides it is not, whatever the spacing: a wall of metaballs ends there "
-          "together with the block that it carries, so that the outermost columns carry too little and the next two "
-          "too much."};
+          "The mean is nearly right: the compliance of the penalty and the stiffening by the held faces nearly "
+          "cancel. Inside, the pressure is uniform. At the free sides it is not, at any spacing: the wall of "
+          "metaballs ends there together with the block that it carries, so the outermost columns carry too little "
+          "and the next two too much."};
 }
 
 Problem sphere_on_block() {
   return {.name = "sphere",
           .title = "23. Sphere on a layer",
           .text =
-              "A rigid sphere of 20 mm radius, of particles, is pressed by 1 and 2 mm into a layer of the seed law, "
-              "64 x 64 x 20 mm, bonded to its ground. Compared with Hertz (0.158 and 0.448 N), corrected for the "
-              "thickness of the layer by Dimitriadis et al. (2002).",
+              "A rigid sphere of particles, 20 mm in radius, is pressed by 1 and 2 mm into a layer of the paper's "
+              "soft tissue, 64 x 64 x 20 mm, which is bonded to its base. The forces are compared with those of "
+              "Hertz (0.158 and 0.448 N), corrected for the thickness of the layer as in Dimitriadis et al. (2002).",
           .quantities = {{.name = "force at 1 mm",
                           .unit = "N",
                           .answer = indentation(1e-3),
@@ -187,8 +187,8 @@ Problem sphere_on_block() {
           .methods = bulky_methods,
           .run = indent,
           .remark =
-              "Too stiff while the indentation is no larger than the spacing; it comes down from above as the contact "
-              "is resolved."};
+              "The contact is too stiff while the indentation is no larger than the spacing; the force approaches "
+              "the answer from above as the contact is resolved."};
 }
 
 }  // namespace verification

@@ -100,8 +100,9 @@ Problem uniaxial_stress() {
     cases.push_back({free_stretch(stretch, 1), 0, 0, "stress at " + examples::message(stretch), answer});
   return homogeneous(
       "uniaxial stress", "3. Uniaxial stress",
-      "A bar of the seed law whose ends are held at a stretch, with free sides. The free particles start "
-      "up to 0.02 spacings off and find their rest by relaxation; the stress in the middle is compared.",
+      "A bar of the paper's soft tissue with free sides, whose ends are held at a given stretch. The free particles "
+      "start up to 0.02 spacings away from equilibrium and come to rest by relaxation; the stress in the middle is "
+      "compared.",
       1, cases);
 }
 
@@ -110,7 +111,8 @@ Problem equibiaxial_stress() {
   for (const auto& [stretch, answer] : {std::pair{0.8, -9822.3128}, {1.1, 3859.0892}, {1.5, 21863.3411}})
     cases.push_back({free_stretch(stretch, 2), 0, 0, "stress at " + examples::message(stretch), answer});
   return homogeneous("equibiaxial stress", "4. Equibiaxial stress",
-                     "The same for a sheet that is held all around, stretched equally along two axes.", 2, cases);
+                     "The same for a sheet that is held all around its rim and stretched equally along two axes.", 2,
+                     cases);
 }
 
 Problem simple_shear() {
@@ -118,8 +120,8 @@ Problem simple_shear() {
   F(0, 1) = 1;
   return homogeneous(
       "simple shear", "5. Simple shear",
-      "The same for a block that is held all around, sheared by gamma = 1. Shear stress by "
-      "2 (C1 + C2) gamma, and the normal stresses that go with it.",
+      "The same for a block that is held on all sides and sheared by gamma = 1. The answers are the shear stress, 2 "
+      "(C1 + C2) gamma, and the normal stresses that accompany it.",
       3, {{F, 0, 1, "sigma12", 6666.6667}, {F, 0, 0, "sigma11", 3333.3333}, {F, 1, 1, "sigma22", -3333.3333}});
 }
 

@@ -79,33 +79,39 @@ std::string table(const Solved& solved) {
 std::string preface(double seconds) {
   std::string text = "# Problems with known answers\n\n";
   text += wrapped(
-      "This page, its picture and `verification.csv` beside it are written by `benchmarks/verification/run` from runs "
-      "of the library's components; nothing in them is typed by hand. `--only NAME` runs one problem anew, `--quick` "
-      "small sizes of all; `--help` lists the rest. It is a measurement of where the method is right and where not.");
+      "This page, its picture and `verification.csv` beside it are written by `benchmarks/verification/run` from "
+      "runs of the library's components; nothing in them is typed by hand. `--only NAME` reruns one problem, "
+      "`--quick` runs all problems at small sizes, and `--help` lists the other options. The page shows where the "
+      "method is right and where it is not.");
   text += '\n' +
           report::bullets(
-              {"**Error**: relative to the answer, with its sign. A problem whose strain is the same everywhere should "
-               "be right at any spacing, to the tolerance of the relaxation; for it the table gives the largest error.",
-               "**Order**: p of |error| = c h^p, fitted to all spacings whose error exceeds that of the answer itself; "
-               "none is given where the error changes its sign. The tables of the problems give it between "
-               "neighbouring spacings.",
-               "**Odd and even** numbers of particles across are told apart where they differ: nearly incompressible "
-               "sheets with an even number of layers lock (see [theory.md](../theory.md)).",
-               "**Static answers** are found by `relax`, two-dimensional ones are plane strain.",
-               "**Geometry**: particles stand at the centres of cells; a body of height h has n = h / l0 of them, the "
-               "outermost half a spacing inside its faces. Displacements of faces are extrapolated from the two "
-               "nearest layers.",
-               "**A fixed face** is one layer of held particles half a spacing behind it. It holds what hangs on it "
-               "about half a spacing too far back, an error of first order; with two layers, as in "
-               "`examples/first_program.cpp`, the error is mostly larger. Both are in the tables.",
-               "**E_hat**: the paper's E beside `shear_wave_modulus`, 4/3 of the shear modulus; `mean_dilatation` "
-               "where the volume is stiff, with the shares of `split_bulk_modulus`."});
+              {"**Error**: relative to the answer, with its sign. Where the strain is the same everywhere, the "
+               "result should be right at any spacing, to the tolerance of the relaxation; for such problems the "
+               "table gives the largest error.",
+               "**Order**: the exponent p in |error| = c h^p, fitted to all spacings at which the error exceeds that "
+               "of the answer itself. No order is given where the error changes sign. The tables of the problems "
+               "give the order between successive spacings.",
+               "**Odd and even** numbers of particles across are listed separately where their results differ: "
+               "nearly incompressible sheets with an even number of layers lock (see [theory.md](../theory.md)).",
+               "**Static problems** are solved by `relax`. Two-dimensional problems are in plane strain.",
+               "**Geometry**: particles lie at the centres of cells. A body of height h has n = h / l0 particles "
+               "across it, and the outermost lie half a spacing inside its faces. Displacements of faces are "
+               "extrapolated from the two nearest layers.",
+               "**A fixed face** is represented by one layer of held particles half a spacing behind it. The layer "
+               "holds the body about half a spacing too far back, which is an error of first order. With two layers, "
+               "as in `examples/first_program.cpp`, the error is mostly larger. The tables contain both.",
+               "**E_hat**: the paper's choice E, and `shear_wave_modulus`, 4/3 of the shear modulus. Where the "
+               "volume is stiff, the latter also with `mean_dilatation` and the shares of `split_bulk_modulus`."});
   text += '\n' + wrapped(
-                     "Rows 7, 8 and 25 to 27 of the list from which the problems are taken are held by tests: energy "
-                     "by `tests/hmps/time/symplectic_euler.test.cpp`, the largest step by "
+                     "Problems 7, 8 and 25 to 27 of the list from which these problems are taken are covered by "
+                     "tests: energy by `tests/hmps/time/symplectic_euler.test.cpp`, the largest step by "
                      "`tests/hmps/analysis/stable_step.test.cpp` and [stability.md](stability.md), incline and slide "
-                     "by `tests/hmps/contact/incline.test.cpp`, stick by `tests/hmps/contact/penalty.test.cpp`.");
-  return text + '\n' + wrapped("All runs took " + report::digits(seconds / 60, 2) + " minutes of one core here.") +
+                     "by `tests/hmps/contact/incline.test.cpp`, and sticking by "
+                     "`tests/hmps/contact/penalty.test.cpp`.");
+  return text + '\n' +
+         wrapped("All runs together took " + report::digits(seconds / 60, 2) +
+                 " minutes on one core of this "
+                 "machine.") +
          '\n';
 }
 

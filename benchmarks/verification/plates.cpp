@@ -99,11 +99,12 @@ Problem oscillating_plate() {
   return {.name = "oscillating plate",
           .title = "19. Oscillating plate",
           .text =
-              "A plate of 200 x 20 mm in plane strain, E = 2 MPa, nu = 0.3975, rho = 1000, Saint Venant-Kirchhoff, "
-              "clamped at one end, is started with the velocities of its first mode: small ones, for which the "
-              "period should be that of a Timoshenko beam with the moduli of plane strain (Euler and Bernoulli: "
-              "0.2540 s), and 0.05 of the speed of sound at its end, for which SPHinXsys stores a period of 0.2746 s "
-              "and an amplitude of 0.113 m, themselves particle results.",
+              "A plate of 200 x 20 mm in plane strain, E = 2 MPa, nu = 0.3975, rho = 1000 kg/m3, Saint "
+              "Venant-Kirchhoff, is clamped at one end and started with the velocities of its first mode. With small "
+              "velocities, the period should be that of a Timoshenko beam with the moduli of plane strain "
+              "(Euler-Bernoulli: 0.2540 s). With 0.05 of the speed of sound at its end, it is compared with the "
+              "values that SPHinXsys stores, a period of 0.2746 s and an amplitude of 0.113 m, which are themselves "
+              "results of a particle method.",
           .quantities =
               {{.name = "period, small",
                 .unit = "s",
@@ -118,10 +119,10 @@ Problem oscillating_plate() {
           .run = swing,
           .parity = true,
           .remark =
-              "Small swings: with E_hat = E the plate is too stiff, with 4/3 mu what is left is mostly the clamp, "
-              "which holds it half a spacing too far back. Large swings: the published figures are those of another "
-              "particle method, whose period lies well above that of beam theory; the runs here leave it and approach "
-              "beam theory from both sides."};
+              "Small vibrations: with E_hat = E the plate is too stiff; with 4/3 mu the remaining error is mostly "
+              "that of the clamp, which holds the plate half a spacing too far back. Large vibrations: the published "
+              "figures are those of another particle method, whose period lies well above that of beam theory; with "
+              "refinement, the runs here move away from it and approach beam theory from both sides."};
 }
 
 Problem elastic_flag() {
@@ -129,9 +130,9 @@ Problem elastic_flag() {
       .name = "elastic flag",
       .title = "20. Elastic flag (Turek CSM3)",
       .text =
-          "A plate of 350 x 20 mm in plane strain, E = 1.4 MPa, nu = 0.4, rho = 1000, Saint Venant-Kirchhoff, "
-          "clamped at one end, is released under g = 2. The middle of its end is compared: mean, amplitude and "
-          "frequency of its fall.",
+          "A plate of 350 x 20 mm in plane strain, E = 1.4 MPa, nu = 0.4, rho = 1000 kg/m3, Saint Venant-Kirchhoff, "
+          "is clamped at one end and released under g = 2 m/s2. The mean, amplitude and frequency of the vertical "
+          "displacement of the middle of its end are compared.",
       .quantities = {{.name = "mean", .unit = "mm", .answer = -63.96, .source = "published", .uncertainty = 0.4},
                      {.name = "amplitude", .unit = "mm", .answer = 65.51, .source = "published", .uncertainty = 0.4},
                      {.name = "frequency", .unit = "Hz", .answer = 1.094, .source = "published", .uncertainty = 0.006}},
@@ -141,8 +142,8 @@ Problem elastic_flag() {
       .run = wave_flag,
       .parity = true,
       .remark =
-          "With 4/3 mu what is left is mostly the clamp: half a spacing more of length. With E_hat = E the stiffness "
-          "of the stabiliser makes up for part of it."};
+          "With 4/3 mu the remaining error is mostly that of the clamp, which adds half a spacing to the length. "
+          "With E_hat = E the stiffness of the stabiliser compensates for part of it."};
 }
 
 }  // namespace verification

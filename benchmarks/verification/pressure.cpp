@@ -129,8 +129,8 @@ Measured cook(int n, const Method& method) {
 }
 
 const std::string on_faces =
-    " The load is given to the particles as the force densities with which a uniform stress would be in equilibrium on "
-    "the lattice, so that a straight face under a uniform load is no source of error.";
+    " The load acts on the particles as the force densities with which a uniform stress would be in equilibrium on "
+    "the lattice, so a straight face under a uniform load causes no error.";
 
 }  // namespace
 
@@ -139,8 +139,8 @@ Problem long_wall() {
       .name = "long wall",
       .title = "15. Long wall",
       .text =
-          "A block of 1 x 2 m in plane strain, Mooney-Rivlin with C1 = 80 and C2 = 20 MPa, under -50 MPa across "
-          "and 100 MPa along, of the deformed faces. The answer is that of an incompressible material; here "
+          "A block of 1 x 2 m in plane strain, Mooney-Rivlin with C1 = 80 MPa and C2 = 20 MPa, under -50 MPa across "
+          "and 100 MPa along, per area of the deformed faces. The answer is that of an incompressible material; here "
           "kappa / mu is 1000." +
           on_faces,
       .quantities =
@@ -156,16 +156,16 @@ Problem long_wall() {
       .methods = bulky_methods,
       .run = wall,
       .remark =
-          "Across it is right to the digits of the answer; along, what is left is that of the digits and of mu / "
-          "kappa."};
+          "Across, the result is right to the digits of the answer; along, the remaining error comes from these "
+          "digits and from mu / kappa."};
 }
 
 Problem thick_cylinder() {
   return {.name = "thick cylinder",
           .title = "16. Thick cylinder",
           .text =
-              "A tube from 7 to 18.625 m in plane strain, of the same material, under an inner pressure of 100 MPa, as "
-              "a full ring on the lattice, whose faces have steps." +
+              "A tube of the same material in plane strain, with radii from 7 to 18.625 m, under an inner pressure "
+              "of 100 MPa. It is a full ring on the lattice, whose faces have steps." +
               on_faces,
           .quantities = {{.name = "inner face", .unit = "m", .answer = 3.2115, .source = "exact"},
                          {.name = "outer face", .unit = "m", .answer = 1.4291, .source = "exact"}},
@@ -174,9 +174,9 @@ Problem thick_cylinder() {
           .methods = bulky_methods,
           .run = tube,
           .remark =
-              "The faces are stairs instead of circles, in a material that hardly changes its volume. The error goes "
-              "up and down with how the lattice cuts the circles, and in this range it does not fall: a curved face "
-              "under pressure is where the lattice costs most."};
+              "The faces are stairs instead of circles, in a material that hardly changes its volume. The error "
+              "fluctuates with the way the lattice cuts the circles, and does not decrease in this range: the "
+              "lattice is at its worst on curved faces under pressure."};
 }
 
 Problem cooks_membrane() {
@@ -184,17 +184,19 @@ Problem cooks_membrane() {
       .name = "Cook's membrane",
       .title = "21. Cook's membrane",
       .text =
-          "A panel with corners at (0, 0), (48, 44), (48, 60) and (0, 44) mm in plane strain, linear, E = 70 MPa, "
-          "nu = 1/3, held at x = 0, under a shear of 6.25 MPa at x = 48 mm: the rise of the upper right corner. "
-          "On the lattice its sloping faces have steps. The load is given to the last two columns as 3/2 and "
-          "-1/2 of it, so that its moment is that of a load at the face.",
+          "A panel with corners at (0, 0), (48, 44), (48, 60) and (0, 44) mm in plane strain, linear, with E = 70 "
+          "MPa and nu = 1/3, is held at x = 0 and loaded by a shear stress of 6.25 MPa at x = 48 mm. The result is "
+          "the rise of the upper right corner. On the lattice the sloping faces have steps. The last two columns "
+          "carry 3/2 and -1/2 of the load, so that its moment is that of a load at the face.",
       .quantities =
           {{.name = "rise of the corner", .unit = "mm", .answer = 32.24, .source = "published", .uncertainty = 0.04}},
       .across = "cells across the width",
       .sizes = {12, 16, 24, 36, 48, 64, 96},
       .methods = clamped_methods,
       .run = cook,
-      .remark = "Of first order: the face is held half a spacing too far back, and the sloping faces have steps."};
+      .remark =
+          "The error is of first order: the face is held half a spacing too far back, and the sloping faces "
+          "have steps."};
 }
 
 }  // namespace verification

@@ -61,7 +61,9 @@ Problem cantilever() {
   return {
       .name = "cantilever",
       .title = "10. Cantilever under its weight",
-      .text = "A bar of the seed law, 60 x 20 x 20 mm, clamped at one end, at rest under g = 9.81.",
+      .text =
+          "A bar of the paper's soft tissue, 60 x 20 x 20 mm, is clamped at one end and at rest under g = 9.81 "
+          "m/s2.",
       .quantities =
           {{.name = "sag of the end", .unit = "mm", .answer = -23.4, .source = "finite elements", .uncertainty = 0.1},
            {.name = "shortening", .unit = "mm", .answer = -4.38, .source = "finite elements", .uncertainty = 0.03}},
@@ -71,9 +73,10 @@ Problem cantilever() {
       .run = sag,
       .parity = true,
       .remark =
-          "With E_hat = E the stabiliser makes the bar too stiff. With 4/3 mu it ends near the answer. At kappa / mu = "
-          "300 even numbers of particles lock a little; mean dilatation takes the difference between odd and even "
-          "away, and with it the stiffness that makes up for a clamp that holds the bar too far back."};
+          "With E_hat = E the stabiliser makes the bar too stiff. With 4/3 mu the result is close to the answer. At "
+          "kappa / mu = 300, even numbers of particles lock a little. Mean dilatation removes the difference between "
+          "odd and even numbers, but also the stiffness that compensates for the clamp, which holds the bar too far "
+          "back."};
 }
 
 Problem bonded_shear() {
@@ -81,9 +84,10 @@ Problem bonded_shear() {
       .name = "bonded cube, shear",
       .title = "12. Bonded cube in shear",
       .text =
-          "A cube of the seed law, 24 mm, between bonded plates, one of which is moved along by 12 mm in ten parts. "
-          "The energy is the work of the finite elements' force on the way, to which it is nearly proportional; of the "
-          "particles, the strain energy and that of the stabiliser.",
+          "A 24 mm cube of the paper's soft tissue lies between bonded plates, one of which is moved sideways by 12 "
+          "mm in ten parts. The answer for the energy is the work of the finite-element force, which is nearly "
+          "proportional to the displacement; the energy of the particles is the strain energy plus that of the "
+          "stabiliser.",
       .quantities =
           {{.name = "force", .unit = "N", .answer = 1.40, .source = "finite elements", .uncertainty = 0.02},
            {.name = "energy", .unit = "mJ", .answer = 8.48, .source = "finite elements", .uncertainty = 0.12}},
@@ -94,8 +98,8 @@ Problem bonded_shear() {
       .parity = true,
       .remark =
           "Two held layers make the bonded faces too stiff: the displacement has a kink between them and the first "
-          "free layer, which costs the stabiliser energy. An energy of 16.22 mJ, which was given with the force, is "
-          "nearly twice the work of that force, and is not used."};
+          "free layer, which adds to the energy of the stabiliser. The source of the force also gives an energy of "
+          "16.22 mJ; this is nearly twice the work of that force, and is not used."};
 }
 
 Problem bonded_compression() {
@@ -103,8 +107,8 @@ Problem bonded_compression() {
       .name = "bonded cube, compression",
       .title = "13. Bonded cube in compression",
       .text =
-          "The same cube, pressed by 30 %. The strain at its edges is singular, so that no answer is sharp; what "
-          "counts is that it holds.",
+          "The same cube, compressed by 30 %. The strain at its edges is singular, so no answer is sharp; what "
+          "matters is that the run does not break down.",
       .quantities = {{.name = "force", .unit = "N", .answer = 7.96, .source = "finite elements", .uncertainty = 0.1}},
       .across = "particles along an edge",
       .sizes = {3, 4, 5, 6, 7, 8, 9, 10, 11},
@@ -112,8 +116,8 @@ Problem bonded_compression() {
       .run = [](int n, const Method& method) { return bonded(n, method, Vector(-0.3 * 0.024, 0, 0), false); },
       .parity = true,
       .remark =
-          "Odd and even numbers of particles differ, as in all that presses a stiff volume; mean dilatation brings "
-          "them together on the soft side, where the edges, which bulge most, are resolved least."};
+          "Odd and even numbers of particles differ, as in all problems that compress a stiff volume. Mean "
+          "dilatation brings them together on the soft side: the edges, which bulge most, are resolved least."};
 }
 
 }  // namespace verification

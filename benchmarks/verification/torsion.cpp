@@ -54,11 +54,11 @@ Problem torsion() {
       .name = "torsion",
       .title = "14. Torsion of a cylinder",
       .text =
-          "A cylinder of the seed law, 10 mm in radius and about 40 mm long, is twisted by 50 rad/m, its ends held at "
-          "their distance. Rivlin: M = pi (C1 + C2) psi a^4 and N = -(pi / 2) psi^2 a^4 (C1 + 2 C2), for an "
-          "incompressible material. On the lattice the cylinder is a prism with steps; the spacing is such that "
-          "its section has the area of the disc. Two layers beyond each end are held at their exact places, and "
-          "moment and thrust are what they carry.",
+          "A cylinder of the paper's soft tissue, 10 mm in radius and about 40 mm long, is twisted by 50 rad/m while "
+          "its ends are held at a fixed distance. For an incompressible material, Rivlin gives M = pi (C1 + C2) psi "
+          "a^4 and N = -(pi / 2) psi^2 a^4 (C1 + 2 C2). On the lattice the cylinder is a prism with steps; the "
+          "spacing is such that its cross-section has the area of the disc. Two layers beyond each end are held at "
+          "their exact positions; moment and thrust are the loads that they carry.",
       .quantities = {{.name = "moment",
                       .unit = "N mm",
                       .answer = 1e3 * pi * (tissue.c1 + tissue.c2) * twist * a4,
@@ -72,10 +72,10 @@ Problem torsion() {
       .methods = bulky_methods,
       .run = wring,
       .remark =
-          "A prism with steps is no disc: its corners carry little shear, so that, once the stiffness of the "
-          "stabiliser has gone, its moment lies a little below that of the disc. The thrust, an effect of second "
-          "order, errs by more and goes up and down with the shape of the section; with E_hat = E it is nearer, since "
-          "the stiffness makes up for it."};
+          "The cross-section with steps is not a disc: its corners carry little shear, so its moment lies a little "
+          "below that of the disc once the stiffness of the stabiliser has vanished. The thrust, a second-order "
+          "effect, has a larger error, which fluctuates with the shape of the cross-section; with E_hat = E it is "
+          "closer to the answer, because the stiffness of the stabiliser compensates."};
 }
 
 }  // namespace verification

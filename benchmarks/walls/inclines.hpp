@@ -20,8 +20,8 @@ inline constexpr double steep_mu = 0.3, holding = 10, sliding = 20;  // -, degre
 /// acceleration?
 [[nodiscard]] inline Table friction(bool quick) {
   Table table{"friction",
-              {"Kernel", "Law", "Skin", "Angle", "Creeps while it should hold, l0", "Speed while it should hold, m/s",
-               "Error of the acceleration, m/s2"}};
+              {"Metaball", "Law", "Surface", "Angle", "Creep where it should hold, l0",
+               "Speed where it should hold, m/s", "Error of the acceleration, m/s2"}};
   const double slope = sliding * std::numbers::pi / 180;
   const double exact = gravity * (std::sin(slope) - steep_mu * std::cos(slope));
   double paper_creep = 0, creep = 0;
@@ -35,12 +35,12 @@ inline constexpr double steep_mu = 0.3, holding = 10, sliding = 20;  // -, degre
         const Outcome held = at(holding), slid = at(sliding);
         table.rows.push_back({kernel, law, skin(made, degrees), digits(degrees), digits(held.moved / spacing, 2),
                               digits(held.shaking, 2), places(slid.acceleration - exact)});
-        const std::string wall = kernel + " kernel, " + law + " law, " + digits(degrees) + " degrees";
+        const std::string wall = kernel + " metaball, " + law + " law, " + digits(degrees) + " degrees";
         if (kernel == "smooth" && law == "corrected") creep = std::max(creep, std::abs(held.moved / spacing));
         if (kernel == "smooth" && law == "paper's") paper_creep = std::max(paper_creep, std::abs(held.moved / spacing));
         if (kernel == "smooth" && made != Made::cut)
           table.check(std::abs(slid.acceleration - exact) < 0.1 * exact,
-                      wall + ": a skin raised or fitted holds the acceleration to a tenth");
+                      wall + ": with a raised or fitted surface the acceleration is right to a tenth");
       }
   };
   add("smooth", "corrected", run<hmps::SmoothMetaball, hmps::CorrectedFriction>);

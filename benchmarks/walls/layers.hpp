@@ -16,7 +16,7 @@ namespace walls {
 /// Fitted walls of two layers, on average over the angles and in the worst case.
 [[nodiscard]] inline Table layers() {
   Table table{"layers",
-              {"Layers apart, l0", "Skin", "Offset as a wall, mean, l0", "Offset as a wall, largest", "Bumps, largest",
+              {"Layer spacing, l0", "Surface", "Offset, mean, l0", "Offset, largest, l0", "Bumps, largest, l0",
                "Drag without friction", "Error of friction"}};
   const auto signed_places = [](double value) { return (value > 0 ? "+" : "") + places(value); };
   for (const double apart : {0.8, 1.0, 1.2})
@@ -39,7 +39,7 @@ namespace walls {
         most_error = std::max(most_error, std::abs(friction / mu - 1));
         drag = places(most_drag, 4), error = percent(most_error);
         table.check(most_drag < 0.01 && most_error < 0.01,
-                    "layers " + digits(apart) + " l0 apart: drag and friction err by 1 % at most");
+                    "layers " + digits(apart) + " l0 apart: the errors of drag and friction are 1 % at most");
       }
       table.rows.push_back({digits(apart), raised ? "raised" : "fitted", signed_places(mean), signed_places(largest),
                             places(bumps), drag, error});

@@ -87,7 +87,7 @@ template <class Of>
 
 [[nodiscard]] inline Table table_of(const std::vector<Found>& all) {
   Table table{"walls",
-              {"Kernel", "Turned", "Skin", "Angle", "Offset, l0", "Bumps, l0", "Tilt, rms", "Tilt, largest",
+              {"Metaball", "Turned", "Surface", "Angle", "Offset, l0", "Bumps, l0", "Tilt, rms", "Tilt, largest",
                "Drag without friction", "Ripple of F_n", "Error of friction", "Time"}};
   const double unit = all.front().rough.seconds;
   for (const Found& row : all)
@@ -102,17 +102,17 @@ template <class Of>
   const auto error = [](const Found& row) { return row.error(); };
   const auto drag = [](const Found& row) { return row.drag(); };
   table.check(worst(all, "smooth", Made::cut, true, error) < 0.01,
-              "along the lattice the smooth kernel errs by 1 % of friction at most");
+              "along the lattice the error of friction with the smooth metaball is 1 % at most");
   table.check(worst(all, "smooth", Made::raised, false, error) < 0.3 * worst(all, "smooth", Made::cut, false, error),
-              "raising the skin takes away two thirds of the error of friction");
+              "raising the surface particles removes two thirds of the error of friction");
   table.check(worst(all, "smooth", Made::raised, false, drag) < 0.5 * worst(all, "smooth", Made::cut, false, drag),
-              "raising the skin takes away half of the drag");
+              "raising the surface particles removes half of the drag");
   for (const Part part : {Part::wall, Part::block, Part::both}) {
     const std::string what = part == Part::wall ? "wall" : part == Part::block ? "block" : "pair";
     table.check(worst(all, "smooth", Made::fitted, false, error, part) < 0.01,
-                "on a fitted " + what + " the smooth kernel errs by 1 % of friction at most");
+                "with a fitted " + what + " the error of friction with the smooth metaball is 1 % at most");
     table.check(worst(all, "smooth", Made::fitted, false, drag, part) < 0.01,
-                "a fitted " + what + " drags by 1 % of the normal force at most");
+                "with a fitted " + what + " the drag is 1 % of the normal force at most");
   }
   return table;
 }
@@ -136,35 +136,37 @@ template <class Of>
   const double steepest =
       worst(all, "smooth", Made::cut, false, [](const Found& row) { return row.relief.largest_tilt; });
   const std::vector<std::string> rules = {
-      "Lay rigid walls and plates out along their own surface, whatever their direction: `SmoothMetaball` then errs "
-      "by " +
-          error("smooth", Made::cut, true) + " of the friction coefficient at most, `PaperMetaball` by " +
-          error("paper", Made::cut, true) + ".",
-      "Or fit them, whatever their form: with `fit_particles` and `SmoothMetaball` the friction errs by " +
-          error("smooth", Made::fitted, false) + " at most, and a slide without friction is dragged by less than " +
-          least_above + " of the normal force, at any angle. A fitted block on a wall along its lattice errs by " +
-          error("smooth", Made::fitted, false, Part::block) + ", one on a fitted wall by " +
-          error("smooth", Made::fitted, false, Part::both) + ". With `PaperMetaball` a fitted wall errs by " +
+      "Lay out the lattice of rigid walls and plates along their own surface, whatever its direction: the error of the "
+      "friction coefficient is then at most " +
+          error("smooth", Made::cut, true) + " with `SmoothMetaball` and " + error("paper", Made::cut, true) +
+          " with `PaperMetaball`.",
+      "Or fit their particles, whatever their shape: with `fit_particles` and `SmoothMetaball` the error of friction "
+      "is at most " +
+          error("smooth", Made::fitted, false) + ", and in a slide without friction the drag is less than " +
+          least_above + " of the normal force, at any angle. For a fitted block the error is " +
+          error("smooth", Made::fitted, false, Part::block) + " on a wall along its lattice and " +
+          error("smooth", Made::fitted, false, Part::both) +
+          " on a fitted wall. With `PaperMetaball` the error on a fitted wall is " +
           error("paper", Made::fitted, false) + ".",
-      "Where a surface has to cut the lattice, let contact see it through `SurfaceCorrection`: with `SmoothMetaball` "
-      "the "
-      "friction errs by " +
-          error("smooth", Made::raised, false) + " at most instead of " + error("smooth", Made::cut, false) +
-          ", and a slide without friction is dragged by " + drag("smooth", Made::raised) + " instead of " +
+      "Where a surface has to cut the lattice, use `SurfaceCorrection` in contact: with `SmoothMetaball` the error of "
+      "friction is at most " +
+          error("smooth", Made::raised, false) + " instead of " + error("smooth", Made::cut, false) +
+          ", and in a slide without friction the drag is " + drag("smooth", Made::raised) + " instead of " +
           drag("smooth", Made::cut) +
           " of the normal force. Contact takes about as long as on a wall along its lattice.",
-      "As cut, count on friction coefficients that are too large by up to " + error("smooth", Made::cut, false) +
+      "On walls as cut, expect friction coefficients that are too large by up to " + error("smooth", Made::cut, false) +
           " with `SmoothMetaball` and " + error("paper", Made::cut, false) +
-          " with `PaperMetaball` where a body is driven, and on stairs that stop one that should slide by its weight: "
-          "their sides are as steep as " +
+          " with `PaperMetaball` if the body is driven. A body that should slide by its own weight may be stopped by "
+          "the stairs: their sides are as steep as " +
           digits(steepest, 2) + " (as a tangent).",
-      "It is the surface slid over that counts: a block that is cut, on a wall along its lattice, errs by " +
-          error("smooth", Made::cut, false, Part::block) + " as cut and by " +
+      "What counts is the surface that is slid over: for a cut block on a wall along its lattice, the error is " +
+          error("smooth", Made::cut, false, Part::block) + " as cut and " +
           error("smooth", Made::raised, false, Part::block) + " raised.",
-      "A kernel that reaches further does not help: with a radius of 3.5 l0 (wide) friction errs by " +
+      "A metaball that reaches further does not help: with a radius of 3.5 l0 (wide) the error of friction is " +
           error("wide", Made::cut, false) + " as cut, " + error("wide", Made::raised, false) + " raised and " +
-          error("wide", Made::fitted, false) + " fitted, for " + time("wide") +
-          " times the time of the paper's kernel where the smooth one takes " + time("smooth") + "."};
+          error("wide", Made::fitted, false) + " fitted, at " + time("wide") +
+          " times the cost of the paper's metaball, whereas the smooth one costs " + time("smooth") +
+          " times as much."};
   return '\n' + report::bullets(rules) + '\n';
 }
 

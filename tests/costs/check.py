@@ -22,20 +22,20 @@ from pages import bullets, table, words, write  # noqa: E402
 SKIPPED = 77
 STEPS = (4, 12)
 SCENES = {
-    "alone": "elastic force, in a program that names nothing else",
+    "alone": "elastic force, in a program that uses nothing else",
     "elastic": "elastic force",
-    "elastic_artificial": "and the stabiliser",
-    "all_terms": "and viscosity: all three",
-    "recorded": "and deformation gradients recorded",
-    "viscous_alone": "viscosity alone",
+    "elastic_artificial": "elastic force and stabiliser",
+    "all_terms": "all three forces: elastic, stabiliser, viscous",
+    "recorded": "all three, deformation gradients recorded",
+    "viscous_alone": "viscous force alone",
     "all_terms_float": "all three, kernels in float",
     "all_terms_2d": "all three, in two dimensions",
-    "halves": "two bodies, all terms recorded, no contact",
-    "halves_far": "the same, contact declared, out of reach",
-    "halves_touching": "the same, meeting at 1 m/s",
-    "region_unrestricted": "all three, half of the body led by a control region",
-    "region": "the same, force restricted to what moves",
-    "search_tree": "all neighbours of all particles by the k-d tree, in place of a step",
+    "halves": "two bodies, all three, deformation gradients recorded, no contact",
+    "halves_far": "the same, contact declared but out of reach",
+    "halves_touching": "the same, the bodies meeting at 1 m/s",
+    "region_unrestricted": "all three, half of the body in a control region",
+    "region": "the same, force restricted to the other half",
+    "search_tree": "all neighbours of all particles by the k-d tree, instead of a step",
     "search_grid": "the same by the grid",
 }
 
@@ -83,29 +83,32 @@ def bounds(m):
     def size(scene):
         return m[scene]["bytes"]
 
-    yield "a program that names one force executes what that force alone does in one that knows all, within 0.5 %", (
+    yield "a program with one force alone executes as much as that force in a program with all, within 0.5 %", (
         abs(count("alone") / count("elastic") - 1) < 0.005)
-    yield "it takes the same memory", abs(size("alone") - size("elastic")) < 1
-    yield "without the stabiliser fewer instructions are executed", count("elastic") < count("elastic_artificial")
-    yield "without viscosity fewer instructions are executed", count("elastic_artificial") < count("all_terms")
-    yield "without viscosity no velocity is kept: 3 numbers less", (
+    yield "a program with one force alone takes the same memory", abs(size("alone") - size("elastic")) < 1
+    yield "without the stabiliser, fewer instructions are executed", count("elastic") < count("elastic_artificial")
+    yield "without viscosity, fewer instructions are executed", count("elastic_artificial") < count("all_terms")
+    yield "without viscosity, no velocities are kept: 3 numbers less per particle", (
         size("all_terms") - size("elastic_artificial") >= 3 * 8)
     yield "the stabiliser takes no memory", abs(size("elastic_artificial") - size("elastic")) < 1
-    yield "without recording fewer instructions are executed", count("all_terms") < count("recorded")
-    yield "viscosity alone leaves out the first sweep: less than a third", (
+    yield "without recording, fewer instructions are executed", count("all_terms") < count("recorded")
+    yield "viscosity alone skips the first sweep: less than a third of the instructions", (
         count("viscous_alone") < count("all_terms") / 3)
-    yield "a particle in two dimensions executes less than a third of one in three", (
+    yield "in two dimensions, a particle takes less than a third of the instructions", (
         count("all_terms_2d") < count("all_terms") / 3)
-    yield "it takes less than two thirds of the memory", size("all_terms_2d") < size("all_terms") * 2 / 3
+    yield "in two dimensions, a particle takes less than two thirds of the memory", (
+        size("all_terms_2d") < size("all_terms") * 2 / 3)
     yield "kernels in float take less than two thirds of the instructions", (
         count("all_terms_float") < count("all_terms") * 2 / 3)
-    yield "and of the memory", size("all_terms_float") < size("all_terms") * 2 / 3
-    yield "contact out of reach executes less than 60 instructions per particle", (
+    yield "kernels in float take less than two thirds of the memory", (
+        size("all_terms_float") < size("all_terms") * 2 / 3)
+    yield "contact out of reach takes less than 60 instructions per particle", (
         count("halves_far") < count("halves") + 60)
     yield "contact out of reach takes less than 10 bytes per particle", size("halves_far") < size("halves") + 10
-    yield "there is contact where bodies meet", m["halves_touching"]["contacts"] > 0
-    yield "which costs more than contact out of reach", count("halves_far") < count("halves_touching")
-    yield "particles deep in a control region cost nothing: less than two thirds where half are led", (
+    yield "bodies that meet are in contact", m["halves_touching"]["contacts"] > 0
+    yield "contact between bodies that meet costs more than contact out of reach", (
+        count("halves_far") < count("halves_touching"))
+    yield "particles deep in a control region cost nothing: less than two thirds with half of them in it", (
         count("region") < count("region_unrestricted") * 2 / 3)
 
 
@@ -118,8 +121,8 @@ def growth(m, compiler):
         return
     for scene, held in HELD.items():
         print(f"{scene:20} {found[scene]:8.1f} instructions, held at {held}")
-        text = SCENES.get(scene, "contact, where the bodies meet")
-        yield f"growth ({HELD_COMPILER}): {text}: at most {100 * MARGIN:.0f} % more than {held:,} instructions", (
+        text = SCENES.get(scene, "contact of the bodies that meet")
+        yield f"no growth ({HELD_COMPILER}): {text}: at most {100 * MARGIN:.0f} % more than {held:,} instructions", (
             found[scene] <= held * (1 + MARGIN))
 
 
@@ -132,20 +135,21 @@ def compile_source(compiler, includes, flags, source, program):
 
 
 def page(m, held, compiler, includes):
-    yield from ["# What is left out costs nothing", ""]
+    yield from ["# What you do not use costs nothing", ""]
     yield from words("This page is written by `benchmarks/stability/run`; nothing in it is typed by hand. The test `costs` "
-                     "holds the bounds below, by counts and not by the clock.")
-    yield from words("A step of about 1,000 particles (10 x 10 x 10, in two dimensions 32 x 32), in double unless said, on "
-                     "one core. Instructions are those of callgrind, for code compiled with `-O2 -mavx2 -mfma`, kick and "
-                     "drift included; bytes are what the components keep on the heap, without the user's own state.")
+                     "checks the bounds below, by counts and not by times.")
+    yield from words("The cost of a step of about 1,000 particles (10 x 10 x 10, in two dimensions 32 x 32), in double "
+                     "unless stated otherwise, on one core. Instructions are counted by callgrind, for code compiled with "
+                     "`-O2 -mavx2 -mfma`, and include kick and drift; bytes are what the components keep on the heap, "
+                     "without the user's own state.")
     yield from table(["Scene", "Instructions per particle and step", "Bytes per particle"],
                      [[text, f"{m[scene]['instructions']:,.0f}", f"{m[scene]['bytes']:.0f}"]
                       for scene, text in SCENES.items()])
-    yield from ["What the test holds:", ""]
+    yield from ["What the test checks:", ""]
     yield from bullets(held)
-    yield from words("What flags give: instructions of all three forces per particle and step, by the same count. The "
-                     "kernels work on 64 bytes of particles at a time, in as many registers as that takes; `-march=native` "
-                     "uses the widest there are.")
+    yield from words("The effect of compiler flags: instructions of all three forces per particle and step, counted in the "
+                     "same way. The kernels work on 64 bytes of particles at a time, in as many registers as that takes; "
+                     "`-march=native` uses the widest registers of the machine.")
     rows, seconds = [], {}
     with tempfile.TemporaryDirectory() as folder:
         seconds["alone"] = compile_source(compiler, includes, FLAGS[0], "alone.cpp", f"{folder}/costs.alone")
@@ -156,9 +160,9 @@ def page(m, held, compiler, includes):
             rows.append([f"`{flags}`", f"{double['instructions']:,.0f}", f"{single['instructions']:,.0f}"])
     yield from table(["Compiled with", "double", "float"], rows)
     first = run([compiler, "--version"]).stdout.splitlines()[0]
-    yield from words(f"Compiling with `{FLAGS[0]}` took {seconds['alone']:.1f} s for the program of one force, "
-                     f"{seconds['scene']:.1f} s for that of all scenes, which includes the whole library (by the clock, "
-                     f"{first}, not tested).")
+    yield from words(f"Compiling with `{FLAGS[0]}` took {seconds['alone']:.1f} s for the program with one force and "
+                     f"{seconds['scene']:.1f} s for that with all scenes, which includes the whole library (wall-clock "
+                     f"time, {first}; the test does not check this).")
 
 
 def main():

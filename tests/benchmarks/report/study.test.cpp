@@ -74,7 +74,7 @@ TEST_F(Program, SaysWhatDoesNotHoldOnThePageAndByItsExitCode) {
     study.publish({.name = "two", .header = {"a"}});
   };
   EXPECT_EQ(run({"--out", path("out"), "--document", path("study.md")}, measure), 1);
-  EXPECT_NE(examples::read_file(path("study.md")).find("Does not hold: one: it is broken.\n"), std::string::npos);
+  EXPECT_NE(examples::read_file(path("study.md")).find("Failed check: one: it is broken.\n"), std::string::npos);
 }
 TEST_F(Program, EndsWithTwoWhereItFails) {
   EXPECT_EQ(run({"--out", path("out")}, [](Study&) { throw hmps::InputError("no"); }), 2);

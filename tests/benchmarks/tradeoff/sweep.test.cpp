@@ -145,7 +145,7 @@ TEST(Rules, SayWhatHalvingCosts) {
   const auto sentences = halving_rules(scene, swept(scene));
   ASSERT_EQ(sentences.size(), 2U);
   EXPECT_EQ(sentences[0],
-            "Halving the h from 0.4 to 0.2 costs 2 times the particle-steps, 2 times the time and as much memory: the "
+            "Halving the h from 0.4 to 0.2 costs 2 times the particle-steps, 2 times the time and the same memory: the "
             "error of the answer goes from 8 to 2 %.");
 }
 TEST(Rules, JudgeErrorsAndTimeTogether) {
@@ -221,14 +221,16 @@ TEST(Agreement, SaysWhereScenesDifferAndLeavesOutWhatOneAloneTried) {
     const auto from = text.find(title), to = text.find("###", from + 3);
     return from != std::string::npos && holds_text(text.substr(from, to - from), line);
   };
-  EXPECT_TRUE(after("### Errs more",
+  EXPECT_TRUE(after("### Larger errors",
                     "scalar float instead of double, at 0.5 times the time (other: the answer from 20 to 70 %)"))
       << text;
-  EXPECT_TRUE(after("### Errs less here and more there", "bias -0.16 instead of 0, at 1 times the time")) << text;
+  EXPECT_TRUE(
+      after("### Smaller errors in some cases, larger in others", "bias -0.16 instead of 0, at 1 times the time"))
+      << text;
   EXPECT_FALSE(holds_text(text, "half")) << "only one scene tried it";
   const std::string same = agreement({{one, swept(one)}, {one, swept(one)}});
-  EXPECT_TRUE(holds_text(same, "### Makes no difference to errors\n\n- scalar float")) << same;
-  EXPECT_TRUE(holds_text(same, "### Breaks down\n\n- scalar half instead of double (formula, formula)")) << same;
+  EXPECT_TRUE(holds_text(same, "### No difference in errors\n\n- scalar float")) << same;
+  EXPECT_TRUE(holds_text(same, "### Failures\n\n- scalar half instead of double (formula, formula)")) << same;
 }
 TEST(Settings, NameWhatIsMissingOrOfTheOtherKind) {
   const Settings settings = formula().standard();
