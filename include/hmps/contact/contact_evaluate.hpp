@@ -127,7 +127,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<
                       lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
                       report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
                       " spacings) deep in it or has passed through it",
-                      report.deep > 1 ? detail::message(", and ", report.deep - 1, " more") : "",
+                      report.deep > 1 ? detail::message("; walls have lost ", report.deep - 1, " more") : "",
                       "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
 }
 

@@ -63,7 +63,6 @@ class Grid {
     inverse_ = S(1) / cell;
     std::size_t total = 1;
     for (int c = 0; c < D; ++c) {
-      // One spare cell, because extent * inverse_ may round up beyond floor(extent / cell).
       cells_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(extent[c] * inverse_) + 1;
       total *= cells_[static_cast<std::size_t>(c)];
     }
