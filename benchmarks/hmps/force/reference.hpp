@@ -43,8 +43,8 @@ class Reference {
 
   /// (13), (19) and (21) into `f`.
   template <class Law>
-  void operator()(const Law& law, S modulus, S rho, S nu, const std::vector<Vec>& x,
-                  const std::vector<Vec>& v, std::vector<Vec>& f) {
+  void operator()(const Law& law, S modulus, S rho, S nu, const std::vector<Vec>& x, const std::vector<Vec>& v,
+                  std::vector<Vec>& f) {
     for (std::size_t i = 0; i < list_.size(); ++i) {
       Mat sum = Mat::Zero();
       const Bond* bond = &bonds_[list_.offset[i]];
