@@ -15,6 +15,7 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/force/force_function.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -48,12 +49,8 @@ struct Direction {
         damping(n, Vector<double, D>::Zero()) {}
 };
 
-/// A `ProbedForce` without its type, so that the analysis of forces is compiled only once.
-template <class T, int D>
-using AnyForce =
-    std::function<void(const VectorView<const T, D>&, const VectorView<const T, D>&, const VectorView<T, D>&)>;
-
-/// The linearised force, with the vector algebra that the search for its largest eigenvalue needs.
+/// The linearised force, with the vector algebra that the search for its largest eigenvalue needs. The type of the
+/// force is erased, so that the search is compiled once for all forces.
 template <class T, int D>
 class ProbedScene {
  public:
@@ -161,7 +158,7 @@ class ProbedScene {
                                  plus_[i].transpose(), " N/m3; check its det F, x, v and the parameters of its law"));
   }
 
-  AnyForce<T, D> force_;
+  ForceFunction<T, D> force_;
   AnyExecutor execute_;
   std::size_t size_;
   std::vector<double> root_density_;

@@ -37,11 +37,12 @@ struct Serial {
 };
 
 namespace detail {
-/// Calls `body(i)` for every `i` in `[0, n)`, with one call through `execute` for each chunk of 1024: for short bodies
-/// and a type-erased executor.
+inline constexpr std::size_t chunk = 1024;  // indices of a loop that are run together
+
+/// Calls `body(i)` for every `i` in `[0, n)`, with one call through `execute` for each chunk: for short bodies and a
+/// type-erased executor.
 template <class Body>
 void for_each_in_chunks(std::size_t n, const AnyExecutor& execute, const Body& body) {
-  constexpr std::size_t chunk = 1024;
   execute((n + chunk - 1) / chunk, [&](std::size_t c) {
     const std::size_t end = std::min(n, (c + 1) * chunk);
     for (std::size_t i = c * chunk; i < end; ++i) body(i);
@@ -54,7 +55,7 @@ void for_each_in_chunks(std::size_t n, const AnyExecutor& execute, const Body& b
 template <class T, class Term, class Combine, Executor E = Serial>
 [[nodiscard]] T reduce(std::size_t n, T start, Term&& term, Combine&& combine, const E& execute = {}) {
   static_assert(!std::same_as<T, bool>, "hmps: reduce to int, not bool: the chunks are written concurrently");
-  constexpr std::size_t chunk = 1024;
+  constexpr std::size_t chunk = detail::chunk;
   const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<T> partial;  // assigned, because g++ 12 warns of an invalid free in the filling constructor
   partial.assign(chunks, start);
