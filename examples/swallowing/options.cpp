@@ -72,7 +72,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
                                    ", four for each processor here: more would only wait for each other"));
   app.add_option("--out", options.out, "output folder (default: results)")->type_name("DIR");
   app.add_flag("--resume", options.resume,
-               "continue from the last checkpoints in the output folder; results are identical to the bit");
+               "continue from the last checkpoints in the output folder; results are identical to the bit. The motion "
+               "of --data may differ from that of the checkpoint in what is to come");
   app.add_flag("--no-frames", no_frames, "write no frames for ParaView");
   number(app.add_option("--frame-interval", options.frame_interval, "time between frames in s (default: 0.01)"), "S")
       ->check(within(1e-5, 10, "the time between frames is in seconds and must lie between 1e-5 and 10"));

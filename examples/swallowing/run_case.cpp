@@ -24,6 +24,7 @@
 #include "output/fingerprint.hpp"
 #include "output/history.hpp"
 #include "output/measure.hpp"
+#include "output/motion_digest.hpp"
 #include "output/observe.hpp"
 #include "output/pictures.hpp"
 #include "output/progress.hpp"
@@ -59,6 +60,7 @@ class Run {
                            .drawn_surfaces = !options.paper_contact,
                            .data = data_,
                            .fitted = fitted})),
+        motion_so_far_(scene_, motion_),
         simulation_(scene_, motion_, materials_,
                     {.friction = friction_,
                      .time_step = options.time_step,
@@ -200,6 +202,7 @@ class Run {
       nearest = {n->share, n->limit, n->time, static_cast<double>(n->particle)};
     state.set("nearest to limit", nearest);
     state.set("range of steps", std::array{summary_.time_step_min, summary_.time_step_max});
+    state.set("motion so far", motion_so_far_.until(state.time));
     state.set("clock", std::array{simulation_.clock()});
     state.set("limiting mode", simulation_.step_limit().mode);
     state.set("seconds", effort_.wall);
@@ -208,10 +211,12 @@ class Run {
   }
   /// The checkpoint to resume from; nothing if the run was stopped before its first checkpoint. Throws `InputError` if
   /// there must have been one, or if it is that of another run.
-  [[nodiscard]] std::optional<Checkpoint> last_checkpoint() const {
+  [[nodiscard]] std::optional<Checkpoint> last_checkpoint() {
     std::optional<Checkpoint> state = Checkpoint::load(checkpoint_file());
     if (state) {
-      require_same_settings(*state, settings_, checkpoint_file());
+      const bool same_motion = state->contains("motion so far") &&
+                               state->value<std::uint64_t>("motion so far") == motion_so_far_.until(state->time);
+      require_same_settings(*state, settings_, checkpoint_file(), same_motion);
       std::cerr << examples::message(chosen_.name, ": resumed at ", state->time, " s\n");
       return state;
     }
@@ -257,6 +262,7 @@ class Run {
   Materials materials_;
   Motion motion_;
   Scene scene_;
+  MotionDigest motion_so_far_;
   Simulation<S> simulation_;
   RunSettings settings_;
   Summary summary_;

@@ -132,9 +132,13 @@ std::optional<std::string> first_difference(const RunSettings& other, const RunS
   return std::nullopt;
 }
 
-void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
-                           const std::filesystem::path& path) {
-  const auto difference = first_difference(checkpoint.settings, settings);
+void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings, const std::filesystem::path& path,
+                           bool same_motion) {
+  const auto compared = [same_motion](RunSettings list) {
+    if (same_motion) std::erase_if(list, [](const auto& entry) { return entry.first.starts_with(track_setting); });
+    return list;
+  };
+  const auto difference = first_difference(compared(checkpoint.settings), compared(settings));
   examples::require(!difference, path.string(), " was written by a run with ", difference.value_or(""),
                     ", which this one has; resume with the same settings, or start anew without --resume");
 }

@@ -10,6 +10,7 @@
 #include <ranges>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -98,9 +99,12 @@ class Checkpoint {
 /// first; nothing if they agree.
 [[nodiscard]] std::optional<std::string> first_difference(const RunSettings& other, const RunSettings& settings);
 
+/// How the names of those settings begin that hash the tracks of the motion.
+inline constexpr std::string_view track_setting = "content of ";
+
 /// Throws `InputError`, naming the first difference, unless the checkpoint from `path` was written by a run with the
-/// same `settings`.
-void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings,
-                           const std::filesystem::path& path);
+/// same `settings`. If the motion so far is the same (`same_motion`), the tracks may differ in what is to come.
+void require_same_settings(const Checkpoint& checkpoint, const RunSettings& settings, const std::filesystem::path& path,
+                           bool same_motion);
 
 }  // namespace swallowing

@@ -19,7 +19,7 @@ void add_tracks(RunSettings& settings, const std::filesystem::path& data) {
   std::sort(files.begin(), files.end());
   for (const auto& file : files)
     if (file.extension() == ".csv")
-      settings.emplace_back("content of " + file.filename().string(),
+      settings.emplace_back(std::string(track_setting) + file.filename().string(),
                             std::to_string(Digest(examples::read_file(file)).value()));
 }
 

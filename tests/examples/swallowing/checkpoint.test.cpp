@@ -103,14 +103,27 @@ TEST(Checkpoint, AnyDamageIsSeen) {
 
 TEST(Checkpoint, OtherSettingsAreRefusedByName) {
   const Checkpoint c = example(1);
-  EXPECT_NO_THROW(swallowing::require_same_settings(c, {{"case", "X1"}, {"spacing", "0.0024"}}, "c.bin"));
+  EXPECT_NO_THROW(swallowing::require_same_settings(c, {{"case", "X1"}, {"spacing", "0.0024"}}, "c.bin", false));
   const auto refusal = [&](const swallowing::RunSettings& settings) {
-    return message_of<InputError>([&] { swallowing::require_same_settings(c, settings, "c.bin"); });
+    return message_of<InputError>([&] { swallowing::require_same_settings(c, settings, "c.bin", false); });
   };
   const std::string spacing = refusal({{"case", "X1"}, {"spacing", "0.0018"}});
   for (const char* part : {"c.bin", "spacing", "0.0024", "0.0018"}) EXPECT_NE(spacing.find(part), std::string::npos);
   EXPECT_NE(refusal({{"case", "X1"}}).find("spacing"), std::string::npos);
   EXPECT_NE(refusal({{"case", "X1"}, {"spacing", "0.0024"}, {"scalar", "float"}}).find("scalar"), std::string::npos);
+}
+
+TEST(Checkpoint, TracksMayDifferAfterItsTime) {
+  Checkpoint c = example(1);
+  c.settings.emplace_back("content of tongue.csv", "17");
+  swallowing::RunSettings settings{{"spacing", "0.0024"}, {"case", "X1"}, {"content of tongue.csv", "18"}};
+  EXPECT_NO_THROW(swallowing::require_same_settings(c, settings, "c.bin", true));
+  const auto refusal = [&](bool same_motion) {
+    return message_of<InputError>([&] { swallowing::require_same_settings(c, settings, "c.bin", same_motion); });
+  };
+  EXPECT_NE(refusal(false).find("content of tongue.csv 17 in place of 18"), std::string::npos) << refusal(false);
+  settings[0].second = "0.0018";
+  EXPECT_NE(refusal(true).find("spacing"), std::string::npos) << "other settings are still compared";
 }
 
 TEST(Checkpoint, WrongNamesSizesAndTypesAreRefused) {
