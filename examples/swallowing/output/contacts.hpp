@@ -36,48 +36,19 @@ inline constexpr std::array turning{Organ::tongue, Organ::pharynx, Organ::larynx
 /// The first line of contacts.csv.
 [[nodiscard]] inline std::string contacts_header(const Scene& scene) {
   std::string header =
-      "time,centre_height,tip_height,leaf_to_larynx,glottis,tongue_to_wall,width_upper,width_middle,width_lower";
+      "time,centre_height,tip_height,leaf_to_larynx,glottis,tongue_to_wall,width_upper,width_middle,width_lower,"
+      "open_upper,open_middle,open_lower";
   for (const Organ organ : turning) header += ",moment_" + column_name(organ);
   for (const ContactPair& pair : scene.contacts)
     for (const char* what : {"area", "normal", "tangential"}) header += ',' + column_name(pair) + '_' + what;
   return header;
 }
 
-namespace detail {
-
-/// Gap in m between the upper half of the leaf and the larynx: between the surfaces of their outermost particles, taken
-/// as balls with the spacing as diameter. Infinite if there are none.
-[[nodiscard]] inline double leaf_to_larynx(const Scene& scene, const std::vector<Eigen::Vector3d>& x,
-                                           const Eigen::Vector3d& middle, const Eigen::Vector3d& tipward) {
-  double least = std::numeric_limits<double>::infinity();
-  for_each_skin(scene, Organ::epiglottis, Organ::larynx, [&](const auto& leaf, const auto& larynx) {
-    for (const hmps::Index i : leaf)
-      if ((x[i] - middle).dot(tipward) > 0)
-        for (const hmps::Index j : larynx) least = std::min(least, (x[i] - x[j]).squaredNorm());
-  });
-  return std::sqrt(least) - scene.spacing;
-}
-
-/// Gap in m between the arytenoids, regions D, from side to side. Infinite if they have no particles.
-[[nodiscard]] inline double glottis(const Scene& scene, const std::vector<Eigen::Vector3d>& x) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  double left = -infinite, right = infinite;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (scene.region[i] < 0) continue;
-    const std::string& region = scene.regions[static_cast<std::size_t>(scene.region[i])].name;
-    if (region == "D left") left = std::max(left, x[i][1]);
-    if (region == "D right") right = std::min(right, x[i][1]);
-  }
-  return right - left - scene.spacing;
-}
-
-}  // namespace detail
-
-/// A row of contacts.csv for the present state and the contact of the previous step. Heights and gaps are in mm.
-/// Moments are in mN m, about the middle of the leaf, of the forces that press on its upper half; a positive moment
-/// turns the tip backwards and down. For each pair of organs: the area in mm2 that touches, as the mean of the areas
-/// that the touching slaves of both organs cover at rest, and the sums in N of the normal and of the friction forces on
-/// them.
+/// A row of contacts.csv for the present state and the contact of the previous step. Heights, gaps and widths are in
+/// mm, open areas in mm2. Moments are in mN m, about the middle of the leaf, of the forces that press on its upper
+/// half; a positive moment turns the tip backwards and down. For each pair of organs: the area in mm2 that touches, as
+/// the mean of the areas that the touching slaves of both organs cover at rest, and the sums in N of the normal and of
+/// the friction forces on them.
 template <class S>
 [[nodiscard]] std::vector<double> observe_contacts(Simulation<S>& simulation, const Scene& scene) {
   const auto& x = simulation.position_array();
@@ -105,10 +76,11 @@ template <class S>
   std::vector<double> row{simulation.time(),
                           1e3 * middle[2],
                           1e3 * tip[2],
-                          1e3 * detail::leaf_to_larynx(scene, x, middle, tipward),
-                          1e3 * detail::glottis(scene, x),
+                          1e3 * leaf_to_larynx(scene, x, middle, tipward),
+                          1e3 * glottis(scene, x),
                           1e3 * tongue_to_wall(scene, x)};
   for (const double height : observed_heights) row.push_back(1e3 * channel_width(scene, x, height));
+  for (const double height : observed_heights) row.push_back(1e6 * open_area(scene, x, height));
   row.insert(row.end(), moments.begin(), moments.end());
   for (const Load& load : loads) {
     row.push_back(load.touching / 2 * 1e6 * scene.spacing * scene.spacing);

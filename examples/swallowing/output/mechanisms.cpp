@@ -46,6 +46,15 @@ struct Extract {
     each(name, [&](double, double value) { sum += value, count += 1; });
     return number(pattern, count > 0 ? sum / count : nothing);
   }
+  /// The least value as a share of the first one.
+  [[nodiscard]] std::string left(const std::string& name) const {
+    double first = nothing, least = nothing, when = nothing;
+    each(name, [&](double time, double value) {
+      if (std::isnan(first)) first = value;
+      if (!(value >= least)) least = value, when = time;
+    });
+    return number("%.0f %%", 100 * least / first, when);
+  }
   /// The largest value, times `sign`.
   [[nodiscard]] std::string most(const std::string& name, const char* pattern, double sign = 1) const {
     double found = nothing, when = nothing;
@@ -102,6 +111,9 @@ struct Line {
       {"least width of the pharynx at 65 mm, mm", [](R r, C) { return whole(r).most("width_upper", "%.1f", -1); }},
       {"at 40 mm", [](R r, C) { return whole(r).most("width_middle", "%.1f", -1); }},
       {"at 22 mm", [](R r, C) { return whole(r).most("width_lower", "%.1f", -1); }},
+      {"least open area of the pharynx at 65 mm, of that at rest", [](R r, C) { return whole(r).left("open_upper"); }},
+      {"at 40 mm", [](R r, C) { return whole(r).left("open_middle"); }},
+      {"at 22 mm", [](R r, C) { return whole(r).left("open_lower"); }},
   };
 }
 

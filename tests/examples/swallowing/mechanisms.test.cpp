@@ -25,10 +25,10 @@ void write_case(const std::filesystem::path& folder, const swallowing::RunSettin
   { swallowing::Series series(folder / "series.csv"); }
   swallowing::TimeTable table(folder / "contacts.csv",
                               "time,centre_height,tip_height,leaf_to_larynx,glottis,moment_tongue,moment_pharynx,"
-                              "epiglottis-pharynx_area");
+                              "epiglottis-pharynx_area,open_upper");
   for (int k = 1000; k <= 2050; ++k) {
     const double t = 1e-3 * k, area = k >= 1630 && k <= 1690 ? 12 : 99;
-    table.add(std::array{t, 46.0, 50 - t, std::abs(t - 1.9) + 5, 3.0, t, 1.5 - t, area});
+    table.add(std::array{t, 46.0, 50 - t, std::abs(t - 1.9) + 5, 3.0, t, 1.5 - t, area, 100 - 40 * std::abs(t - 1)});
   }
 }
 
@@ -47,7 +47,8 @@ TEST(Mechanisms, AreReadFromTheContacts) {
         "| leaf on wall, 1.63 to 1.69 s: area, mm2 | 12.0 |",
         "| leaf on wall, 1.63 to 1.69 s: normal force, N | – |",  // no such column
         "| height of the middle of the leaf at 1.700 s, mm | 46.0 |", "| height of its tip at 1.700 s, mm | 48.3 |",
-        "| least gap between the upper leaf and the larynx, mm | 5.0 at 1.900 s |"})
+        "| least gap between the upper leaf and the larynx, mm | 5.0 at 1.900 s |",
+        "| least open area of the pharynx at 65 mm, of that at rest | 58 % at 2.050 s |"})
     EXPECT_NE(text.find(line), std::string::npos) << line << '\n' << text;
 }
 
