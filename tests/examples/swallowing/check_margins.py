@@ -47,5 +47,5 @@ with tempfile.TemporaryDirectory() as folder:
     slopes = (out / "map.md").read_text().splitlines()[2:]
     expect(len(slopes) == 5 and all(row.count("|") == 3 for row in slopes), f"the map has {len(slopes)} rows")
     angles = [[row["angle"] for row in table_of(f"H{degrees:+}/constrictors.csv")] for degrees in (-8, 0, 8)]
-    expect(angles == [[0, 0, 20, 20], [0, 0, 28, 28], [0, 0, 36, 36]], f"the plates of H turn by {angles} degrees")
+    expect(angles == [[0, 0, 24, 24], [0, 0, 32, 32], [0, 0, 40, 40]], f"the plates of H turn by {angles} degrees")
 print(f"{len(rows)} rows")
