@@ -19,6 +19,7 @@
 #include "output/comparison.hpp"
 #include "output/fingerprint.hpp"
 #include "output/mechanisms.hpp"
+#include "output/pictures.hpp"
 #include "output/progress.hpp"
 #include "run_case.hpp"
 #include "waiting.hpp"
@@ -61,6 +62,9 @@ void compare_cases(const Options& options) {
   write_table2(out / "table2.md", results);
   write_mechanisms(out / "mechanisms.md", results);
   draw_fold(out / "fold.png", results);
+  std::filesystem::remove(out / "outlines.png");
+  if (results[0].summary && results[2].summary)
+    draw_outlines(out / "outlines.png", {{{"X1", out / "X1" / "snapshots"}, {"Y1", out / "Y1" / "snapshots"}}});
 }
 
 /// Runs the cases, as many at a time as there are threads: cases need not wait for each other, whereas the threads of

@@ -134,6 +134,8 @@ class Run {
     account();
     finish();
     draw_sheet(folder_ / "sheet.png", history.snapshots, title());
+    draw_rear(folder_ / "rear.png", history.snapshots, title() + ": the leaf from behind and the left");
+    draw_sections(folder_ / "sections.png", history.snapshots, title() + ": sections of the pharynx from above");
     return summary_;
   }
 
@@ -160,9 +162,8 @@ class Run {
     return folder;
   }
   void snap(const Snapshots& snapshots, double time) {
-    for (std::size_t panel = 0; panel < picture_times.size(); ++panel)
-      if (std::abs(time - picture_times[panel]) < sample_interval / 2)
-        snapshots.add(panel, snapshot(simulation_, scene_));
+    for (const double moment : snapshot_times)
+      if (std::abs(time - moment) < sample_interval / 2) snapshots.add(moment, snapshot(simulation_, scene_));
   }
   [[nodiscard]] std::string title() const {
     return examples::message("Case ", chosen_.name, ": model ", chosen_.model == Model::X ? "X" : "Y", ", friction ",

@@ -10,8 +10,8 @@
 #include "../../common/error.hpp"
 #include "output/checkpoint.hpp"
 #include "output/frames.hpp"
-#include "output/pictures.hpp"
 #include "output/series.hpp"
+#include "output/snapshots.hpp"
 
 namespace swallowing {
 
@@ -31,11 +31,11 @@ struct History {
       : series(begin(folder, resumed) / "series.csv", mark("series", resumed)),
         contacts(folder / "contacts.csv", contacts_header, mark("contacts", resumed)),
         snapshots(folder / "snapshots", time(resumed)) {
-    for (std::size_t panel = 0; resumed && panel < picture_times.size(); ++panel)
-      examples::require(picture_times[panel] > resumed->time + 5e-10 || snapshots.load(panel), "in ",
-                        (folder / "snapshots").string(), " the moment at ", picture_times[panel],
-                        " s, before the checkpoint, is missing; put its file back, or start anew without "
-                        "--resume");
+    if (resumed)
+      for (const double moment : snapshot_times)
+        examples::require(moment > resumed->time + 5e-10 || snapshots.load(moment), "in ",
+                          (folder / "snapshots").string(), " the moment at ", moment,
+                          " s, before the checkpoint, is missing; put its file back, or start anew without --resume");
     if (resumed) frames_before_ = resumed->value<std::uint64_t>("frames");
     if (with_frames) frames.emplace(folder, time(resumed), frames_before_);
   }
@@ -52,7 +52,7 @@ struct History {
   /// resumed.
   static const std::filesystem::path& begin(const std::filesystem::path& folder,
                                             const std::optional<Checkpoint>& resumed) {
-    for (const char* file : {"checkpoint.bin", "summary.json", "sheet.png", "frames.pvd"})
+    for (const char* file : {"checkpoint.bin", "summary.json", "sheet.png", "rear.png", "sections.png", "frames.pvd"})
       if (!resumed) std::filesystem::remove(folder / file);
     return folder;
   }

@@ -12,7 +12,7 @@
 
 #include "output/frames.hpp"
 #include "output/measure.hpp"
-#include "output/pictures.hpp"
+#include "output/snapshots.hpp"
 #include "output/series.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "output/pictures.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
 
-#include "../../common/canvas.hpp"
-#include "output/checkpoint.hpp"
+#include "../../common/error.hpp"
+#include "output/lumen.hpp"
+#include "output/panels.hpp"
 
 namespace swallowing {
 
@@ -16,25 +23,14 @@ using examples::Anchor;
 using examples::Canvas;
 using examples::Colour;
 
-constexpr Colour ink = Colour::hex(0x1d2430);
-constexpr Colour faint = Colour::hex(0x6b7480);
-constexpr Colour ground = Colour::hex(0xf4f6f9);
-constexpr Colour control_colour = Colour::hex(0x20232b);
-constexpr Colour mark = Colour::hex(0xc01c28);
-constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
+/// Particles of one picture at some of the `snapshot_times`.
+using Moments = std::vector<std::optional<Snapshot>>;
 
-[[nodiscard]] Colour colour_of(const std::string& organ) {
-  static const std::pair<const char*, Colour> colours[] = {
-      {"epiglottis", Colour::hex(0xf5c211)}, {"tongue", Colour::hex(0xd9584f)},    {"hard", Colour::hex(0xb9ae98)},
-      {"palate", Colour::hex(0xe8915b)},     {"vallec", Colour::hex(0x3fa796)},    {"aryt", Colour::hex(0x2f6fb5)},
-      {"laryn", Colour::hex(0x5596d6)},      {"trachea", Colour::hex(0x5596d6)},   {"phary", Colour::hex(0xe3a3b4)},
-      {"wall", Colour::hex(0xe3a3b4)},       {"esophagus", Colour::hex(0x9b7fc9)}, {"vertebra", Colour::hex(0x8a8172)}};
-  std::string name = organ;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const auto& [part, colour] : colours)
-    if (name.find(part) != std::string::npos) return colour;
-  return Colour::hex(0x8fae6a);
+template <std::size_t N>
+[[nodiscard]] Moments moments(const Snapshots& snapshots, const std::array<double, N>& times) {
+  Moments all;
+  for (const double time : times) all.push_back(snapshots.load(time));
+  return all;
 }
 
 [[nodiscard]] std::string format(const char* pattern, double value) {
@@ -43,40 +39,14 @@ constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
   return text;
 }
 
-/// The part of the sagittal plane that a panel shows, in m, and its scale in pixels per m.
-struct Window {
-  double x0, z0, x1, z1, scale;
-  [[nodiscard]] double px(double x) const { return (x - x0) * scale; }
-  [[nodiscard]] double py(double z) const { return (z1 - z) * scale; }
-};
-
-/// Draws the particles of the right half, y >= 0, those closest to the midsagittal plane last. The viewer stands on the
-/// left: x, posterior, runs to the right.
-void draw_particles(Canvas& canvas, const Snapshot& s, const Window& window) {
-  std::vector<std::size_t> order(s.positions.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::erase_if(order, [&](std::size_t i) { return s.positions[i][1] < 0; });
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return s.positions[a][1] > s.positions[b][1]; });
-  std::vector<Colour> colours;
-  for (const std::string& organ : s.organs) colours.push_back(colour_of(organ));
-
-  const double radius = 0.56 * s.spacing * window.scale;
-  constexpr double depth = 0.022;  // m, over which the colours fade by a factor of e
-  for (const std::size_t i : order) {
-    const double y = s.positions[i][1];
-    const bool near = y < s.spacing;
-    Colour fill = colours.at(s.organ[i]);
-    if (s.role[i] == Role::control) fill = control_colour.mixed(fill, 0.12);
-    if (s.role[i] == Role::plate) fill = plate_colour;
-    const double fog = near ? 0 : 0.22 + 0.6 * (1 - std::exp(-y / depth));
-    const Colour rim = fill.mixed(ink, near ? 0.55 : 0.28).mixed(ground, fog);
-    fill = fill.mixed(ground, fog);
-    const double x = window.px(s.positions[i][0]), z = window.py(s.positions[i][2]);
-    canvas.disc(x, z, radius, rim);
-    canvas.disc(x - 0.06 * radius, z - 0.06 * radius, radius - std::max(0.35, 0.13 * radius), fill);
-    canvas.disc(x - 0.3 * radius, z - 0.34 * radius, 0.3 * radius, fill.mixed({1, 1, 1}, 0.3));
-  }
+/// The right half, y >= 0, seen from the midsagittal plane. The viewer stands on the left: x, posterior, runs to the
+/// right.
+[[nodiscard]] View from_midsagittal_plane() {
+  return {.project =
+              [](const std::array<float, 3>& p) {
+                return std::array<double, 3>{p[0], p[2], p[1]};
+              },
+          .shows = [](const Snapshot& s, std::size_t i) { return s.positions[i][1] >= 0; }};
 }
 
 /// The line from the centre to the tip of the epiglottis, and the horizontal through the centre.
@@ -92,26 +62,8 @@ void draw_angle(Canvas& canvas, const Snapshot& s, const Window& window) {
   canvas.disc(cx, cz, 3.2, mark);
 }
 
-void draw_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
-  // Only what is present, the organs in their own order.
-  std::vector<bool> seen(s.organs.size(), false);
-  bool control = false, plate = false;
-  for (std::size_t i = 0; i < s.organ.size(); ++i) {
-    if (s.role[i] == Role::free) seen[s.organ[i]] = true;
-    control = control || s.role[i] == Role::control;
-    plate = plate || s.role[i] == Role::plate;
-  }
-  const auto entry = [&](const Colour& colour, const std::string& words) {
-    canvas.disc(x + 9, y - 6, 9, colour.mixed(ink, 0.5));
-    canvas.disc(x + 9, y - 6, 7.6, colour);
-    canvas.text(x + 30, y, words, 17, ink);
-    y += 30;
-  };
-  for (std::size_t i = 0; i < s.organs.size(); ++i)
-    if (seen[i]) entry(colour_of(s.organs[i]), s.organs[i]);
-  if (control) entry(control_colour, "control regions");
-  if (plate) entry(plate_colour, "region H (constrictors)");
-  y += 2;
+void draw_sheet_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
+  y = draw_legend(canvas, x, y, s) + 2;
   canvas.line(x, y - 6, x + 20, y - 6, mark, 2.4);
   canvas.disc(x, y - 6, 3.2, mark);
   canvas.text(x + 30, y, "centre to tip of epiglottis", 17, ink);
@@ -124,106 +76,172 @@ void draw_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
   canvas.text(x, y + 40, "tip above the horizontal.", 15, faint);
 }
 
+/// The window, `width` pixels wide, that holds the particles at all `moments`, as far as `view` shows them.
+[[nodiscard]] Window around(const Moments& moments, const View& view, double width) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), margin = 0.004;
+  double left = infinite, bottom = infinite, right = -infinite, top = -infinite;
+  for (const auto& moment : moments)
+    for (std::size_t i = 0; moment && i < moment->positions.size(); ++i) {
+      const auto [across, up, behind] = view.project(moment->positions[i]);
+      left = std::min(left, across), right = std::max(right, across);
+      bottom = std::min(bottom, up), top = std::max(top, up);
+    }
+  if (left > right) left = bottom = -0.1, right = top = 0.1;  // nothing was reached
+  return Window::of_width(width, left - margin, bottom - margin, right + margin, top + margin);
+}
+
+[[nodiscard]] const Snapshot* any_of(const Moments& moments) {
+  const auto found = std::find_if(moments.begin(), moments.end(), [](const auto& s) { return s.has_value(); });
+  return found == moments.end() ? nullptr : &**found;
+}
+
 }  // namespace
 
-Snapshots::Snapshots(const std::filesystem::path& folder, std::optional<double> resume_time) : folder_(folder) {
-  std::filesystem::create_directories(folder_);
-  for (std::size_t panel = 0; panel < picture_times.size(); ++panel)
-    if (!resume_time || picture_times[panel] > *resume_time + 5e-10) std::filesystem::remove(file(panel));
-}
-
-std::filesystem::path Snapshots::file(std::size_t panel) const {
-  return folder_ / ("snapshot_" + format("%.3f", picture_times.at(panel)) + "s.bin");
-}
-
-void Snapshots::add(std::size_t panel, const Snapshot& snapshot) const {
-  Checkpoint box;  // used as a container: either complete or absent, with a checksum
-  box.time = snapshot.time;
-  for (const std::string& organ : snapshot.organs) box.settings.emplace_back("organ", organ);
-  box.set("spacing", snapshot.spacing);
-  box.set("positions", snapshot.positions);
-  box.set("organ", snapshot.organ);
-  box.set("role", snapshot.role);
-  box.set("centre", snapshot.centre);
-  box.set("tip", snapshot.tip);
-  box.set("tip_angle", snapshot.tip_angle);
-  box.save(file(panel));
-}
-
-std::optional<Snapshot> Snapshots::load(std::size_t panel) const {
-  const auto box = Checkpoint::load(file(panel));
-  if (!box) return std::nullopt;
-  Snapshot s;
-  s.time = box->time;
-  for (const auto& [key, organ] : box->settings) s.organs.push_back(organ);
-  s.spacing = box->value<double>("spacing");
-  s.positions = box->get<std::array<float, 3>>("positions");
-  s.organ = box->get<std::uint8_t>("organ");
-  s.role = box->get<Role>("role");
-  box->get("centre", s.centre);
-  box->get("tip", s.tip);
-  s.tip_angle = box->value<double>("tip_angle");
-  return s;
-}
-
 void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
-  constexpr int columns = 5, rows = 2, gap = 18, top = 66, strip = 40;
-  constexpr double panel_width = 400;
-
-  Window window{1e9, 1e9, -1e9, -1e9, 1};
-  std::vector<std::optional<Snapshot>> panels;
-  for (std::size_t panel = 0; panel < picture_times.size(); ++panel) {
-    panels.push_back(snapshots.load(panel));
-    if (!panels.back()) continue;
-    for (const auto& p : panels.back()->positions) {
-      window.x0 = std::min(window.x0, double{p[0]});
-      window.x1 = std::max(window.x1, double{p[0]});
-      window.z0 = std::min(window.z0, double{p[2]});
-      window.z1 = std::max(window.z1, double{p[2]});
+  constexpr std::array times{0., 0.5, 1.383, 1.583, 1.667, 1.677, 1.683, 1.7, 2.05};
+  const Moments all = moments(snapshots, times);
+  const View view = from_midsagittal_plane();
+  Grid grid{.title = title, .columns = 5, .width = 400};
+  const Window window = around(all, view, grid.width);
+  grid.height = std::clamp(window.height(), 200., 1600.);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    Panel panel{.words = format("%.3f s", times[i])};
+    if (all[i]) {
+      panel.value = format("%+.1f°", all[i]->tip_angle);
+      panel.draw = [&, i](Canvas& canvas) {
+        draw_particles(canvas, *all[i], view, window);
+        draw_angle(canvas, *all[i], window);
+        if (i > 0) return;
+        draw_scale(canvas, window);
+        canvas.text_with_halo(16, grid.height - 54, "← anterior", 15, faint, ground);
+      };
     }
+    grid.panels.push_back(std::move(panel));
   }
-  if (window.x0 > window.x1) window = {-0.1, -0.1, 0.1, 0.1, 1};  // nothing was reached
-  constexpr double margin = 0.004;
-  window.x0 -= margin;
-  window.x1 += margin;
-  window.z0 -= margin;
-  window.z1 += margin;
-  window.scale = panel_width / (window.x1 - window.x0);
-  const double panel_height = std::clamp((window.z1 - window.z0) * window.scale, 200., 1600.);
+  grid.draw(path, [&](Canvas& canvas) {
+    const auto [x, y] = grid.corner(times.size());
+    if (const Snapshot* s = any_of(all)) draw_sheet_legend(canvas, x + 30, y + 76, *s);
+  });
+}
 
-  Canvas canvas(static_cast<int>(columns * (panel_width + gap) + gap),
-                static_cast<int>(top + rows * (panel_height + strip + gap)));
-  canvas.text(gap, 42, title, 26, ink, Anchor::left, true);
-  const Snapshot* any = nullptr;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const double x = gap + static_cast<double>(i % columns) * (panel_width + gap);
-    const double y = top + static_cast<double>(i / columns) * (panel_height + strip + gap);
-    const std::string letter(1, static_cast<char>('a' + i));
-    canvas.text(x + 4, y + 28, letter, 25, ink, Anchor::left, true);
-    canvas.text(x + 30, y + 28, format("%.3f s", picture_times[i]), 21, ink);
-    if (panels[i])
-      canvas.text(x + panel_width - 4, y + 28, format("%+.1f°", panels[i]->tip_angle), 21, mark, Anchor::right, true);
-    cairo_save(canvas.cairo());
-    cairo_translate(canvas.cairo(), x, y + strip);
-    cairo_rectangle(canvas.cairo(), 0, 0, panel_width, panel_height);
-    cairo_clip(canvas.cairo());
-    canvas.rectangle(0, 0, panel_width, panel_height, ground);
-    if (panels[i]) {
-      any = &*panels[i];
-      draw_particles(canvas, *any, window);
-      draw_angle(canvas, *any, window);
-    } else {
-      canvas.text(panel_width / 2, panel_height / 2, "not reached", 20, faint, Anchor::middle);
-    }
-    if (i == 0) {
-      canvas.line(16, panel_height - 18, 16 + 0.02 * window.scale, panel_height - 18, ink, 3);
-      canvas.text_with_halo(16 + 0.01 * window.scale, panel_height - 26, "20 mm", 15, ink, ground, Anchor::middle);
-      canvas.text_with_halo(16, panel_height - 54, "← anterior", 15, faint, ground);
-    }
-    cairo_restore(canvas.cairo());
+void draw_rear(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
+  using Vector = Eigen::Vector3d;
+  constexpr std::array times{1.383, 1.583, 1.633, 1.677};
+  constexpr double left = 30 * std::numbers::pi / 180, above = 25 * std::numbers::pi / 180;
+  const Vector towards(std::cos(above) * std::cos(left), -std::cos(above) * std::sin(left), std::sin(above));
+  const Vector across = Vector::UnitZ().cross(towards).normalized(), up = towards.cross(across);
+  const Vector middle(-5e-3, 0, 45e-3);                      // m, about where the leaf turns
+  constexpr double removed_behind = 2e-3, in_front = 12e-3;  // m
+  const View view{.project =
+                      [=](const std::array<float, 3>& p) {
+                        const Vector d = Eigen::Map<const Eigen::Vector3f>(p.data()).cast<double>() - middle;
+                        return std::array{d.dot(across), d.dot(up), std::max(0., in_front - d.dot(towards))};
+                      },
+                  .shows =
+                      [](const Snapshot& s, std::size_t i) {
+                        const std::string& organ = s.organ_of(i);
+                        if (s.role[i] == Role::plate || organ == name(Organ::vertebrae)) return false;
+                        return organ != name(Organ::pharynx) ||
+                               (s.positions[i][1] > 0 && s.positions[i][0] < removed_behind);
+                      },
+                  .cuts = false};
+  const Moments all = moments(snapshots, times);
+  Grid grid{.title = title, .columns = 4, .width = 460};
+  const Window window = Window::of_width(grid.width, -26e-3, -38e-3, 26e-3, 26e-3);
+  grid.height = window.height();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    Panel panel{.words = format("%.3f s", times[i])};
+    if (all[i])
+      panel.draw = [&, i](Canvas& canvas) {
+        draw_particles(canvas, *all[i], view, window);
+        if (i == 0) draw_scale(canvas, window);
+      };
+    grid.panels.push_back(std::move(panel));
   }
-  if (any) draw_legend(canvas, gap + 4 * (panel_width + gap) + 30, top + panel_height + strip + gap + 76, *any);
-  canvas.save(path);
+  grid.draw(path, [](Canvas&) {});
+}
+
+void draw_sections(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
+  constexpr std::array times{0., 1.583, 1.667, 1.7, 1.85};
+  const Moments all = moments(snapshots, times);
+  Grid grid{.title = title, .columns = static_cast<int>(times.size()), .more = 1, .width = 360};
+  const Window window = Window::of_width(grid.width, -26e-3, -22e-3, 26e-3, 26e-3);
+  grid.height = window.height();
+  for (const double height : observed_heights)
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      Panel panel{.words = format("z = %.0f mm, ", 1e3 * height) + format("%.3f s", times[i])};
+      if (all[i])
+        panel.draw = [&, i, height](Canvas& canvas) {
+          // From above: anterior is up, and the right half on the right.
+          const View view{
+              .project =
+                  [](const std::array<float, 3>& p) {
+                    return std::array<double, 3>{p[1], -p[0], 0};
+                  },
+              .shows = [height](const Snapshot& s,
+                                std::size_t k) { return std::abs(s.positions[k][2] - height) < s.spacing / 2; }};
+          draw_particles(canvas, *all[i], view, window);
+          if (i == 0) draw_scale(canvas, window);
+        };
+      grid.panels.push_back(std::move(panel));
+    }
+  grid.draw(path, [&](Canvas& canvas) {
+    const auto [x, y] = grid.corner(times.size() - 1);
+    if (const Snapshot* s = any_of(all)) draw_legend(canvas, x + grid.width + Grid::gap + 12, y + 66, *s);
+  });
+}
+
+namespace {
+
+[[nodiscard]] bool in_midsagittal_plane(const Snapshot& s, std::size_t i) {
+  return std::abs(s.positions[i][1]) < 0.75 * s.spacing;
+}
+
+/// The outline of the leaf in the midsagittal plane: that of broad lines between its neighbouring particles.
+void draw_outline(Canvas& canvas, const Snapshot& s, const Window& window, const Colour& colour) {
+  std::vector<std::array<float, 3>> leaf;
+  for (std::size_t i = 0; i < s.positions.size(); ++i)
+    if (in_midsagittal_plane(s, i) && s.organ_of(i) == name(Organ::epiglottis)) leaf.push_back(s.positions[i]);
+  cairo_t* cairo = canvas.cairo();
+  cairo_push_group(cairo);
+  constexpr double thickness = 4, reach = 1.75;  // pixels, spacings
+  for (const bool inside : {false, true}) {
+    if (inside) cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
+    const double breadth = s.spacing * window.scale - (inside ? 2 * thickness : 0);
+    for (const auto& p : leaf)
+      for (const auto& q : leaf)
+        if (std::hypot(p[0] - q[0], p[2] - q[2]) < reach * s.spacing)
+          canvas.line(window.px(p[0]), window.py(p[2]), window.px(q[0]), window.py(q[2]), colour, breadth);
+  }
+  cairo_pop_group_to_source(cairo);
+  cairo_paint(cairo);
+}
+
+}  // namespace
+
+void draw_outlines(const std::filesystem::path& path, const std::array<NamedSnapshots, 2>& both) {
+  constexpr double time = 1.7;
+  constexpr std::array colours{mark, Colour::hex(0xe6b800)};
+  const std::array leaves{load_snapshot(both[0].folder, time), load_snapshot(both[1].folder, time)};
+  if (!leaves[0] || !leaves[1]) return;
+  View view = from_midsagittal_plane();
+  view.shows = [](const Snapshot& s, std::size_t i) {
+    return in_midsagittal_plane(s, i) && s.organ_of(i) != name(Organ::epiglottis);
+  };
+  Grid grid{.title = "The leaf in " + both[0].name + " and " + both[1].name, .width = 620};
+  const Window window = Window::of_width(grid.width, -40e-3, 0, 22e-3, 82e-3);
+  grid.height = window.height();
+  grid.panels.push_back({.words = format("%.3f s", time), .draw = [&](Canvas& canvas) {
+                           draw_particles(canvas, *leaves[0], view, window);
+                           for (std::size_t k = 0; k < 2; ++k) {
+                             draw_outline(canvas, *leaves[k], window, colours[k]);
+                             const double y = 30 + 26 * static_cast<double>(k);
+                             canvas.line(16, y - 6, 46, y - 6, colours[k], 5);
+                             canvas.text_with_halo(56, y, both[k].name, 19, ink, ground);
+                           }
+                           draw_scale(canvas, window);
+                         }});
+  grid.draw(path, [](Canvas&) {});
 }
 
 }  // namespace swallowing

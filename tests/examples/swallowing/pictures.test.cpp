@@ -64,10 +64,10 @@ constexpr auto dark = [](int r, int g, int b) { return r < 70 && g < 70 && b < 8
 TEST(Pictures, ASnapshotComesBackAsItWas) {
   const TemporaryFolder folder;
   const Snapshots snapshots(folder.path() / "snapshots");
-  EXPECT_FALSE(snapshots.load(4));
+  EXPECT_FALSE(snapshots.load(1.667));
   const Snapshot s = block(1.667);
-  snapshots.add(4, s);
-  const auto read = snapshots.load(4);
+  snapshots.add(1.667, s);
+  const auto read = snapshots.load(1.667);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->time, s.time);
   EXPECT_EQ(read->spacing, s.spacing);
@@ -84,12 +84,12 @@ TEST(Pictures, AResumedRunKeepsWhatLiesBeforeTheCheckpoint) {
   const TemporaryFolder folder;
   {
     const Snapshots snapshots(folder.path());
-    for (std::size_t panel = 0; panel < 5; ++panel) snapshots.add(panel, block(swallowing::picture_times[panel]));
+    for (const double time : {0., 0.5, 1.383, 1.583, 1.667}) snapshots.add(time, block(time));
   }
   {
     const Snapshots snapshots(folder.path(), 1.4);
-    EXPECT_TRUE(snapshots.load(0) && snapshots.load(1) && snapshots.load(2));
-    EXPECT_FALSE(snapshots.load(3) || snapshots.load(4));
+    EXPECT_TRUE(snapshots.load(0) && snapshots.load(0.5) && snapshots.load(1.383));
+    EXPECT_FALSE(snapshots.load(1.583) || snapshots.load(1.667));
   }
   const Snapshots anew(folder.path());
   EXPECT_FALSE(anew.load(0));
@@ -102,8 +102,7 @@ TEST(Pictures, TheSheetShowsOrgansAndControlRegions) {
   swallowing::draw_sheet(path, snapshots, "nothing yet");
   EXPECT_LT(Png(path).share(red), 1e-3);
 
-  for (std::size_t panel = 0; panel < swallowing::picture_times.size(); ++panel)
-    snapshots.add(panel, block(swallowing::picture_times[panel]));
+  for (const double time : swallowing::snapshot_times) snapshots.add(time, block(time));
   swallowing::draw_sheet(path, snapshots, "all");
   const Png sheet(path);
   ASSERT_EQ(cairo_surface_status(sheet.surface), CAIRO_STATUS_SUCCESS);
@@ -121,6 +120,65 @@ TEST(Pictures, OnlyTheRightHalfIsDrawn) {
   snapshots.add(0, s);
   swallowing::draw_sheet(folder.path() / "sheet.png", snapshots, "left");
   EXPECT_LT(Png(folder.path() / "sheet.png").share(yellow), 1e-3);
+}
+
+/// A sheet of one organ across the midsagittal plane.
+Snapshot sheet_of(const std::string& organ, float x, float height) {
+  Snapshot s;
+  s.spacing = 2e-3;
+  s.organs = {organ};
+  for (int j = -8; j <= 8; ++j)
+    for (int k = -8; k <= 8; ++k) {
+      s.positions.push_back({x, 2e-3f * static_cast<float>(j), height + 2e-3f * static_cast<float>(k)});
+      s.organ.push_back(0);
+      s.role.push_back(Role::free);
+    }
+  return s;
+}
+
+TEST(Pictures, FromBehindTheLeafIsNotHiddenByTheWall) {
+  const TemporaryFolder folder;
+  const Snapshots snapshots(folder.path() / "snapshots");
+  const auto path = folder.path() / "rear.png";
+  const auto drawn = [&](const Snapshot& s) {
+    snapshots.add(1.583, s);
+    swallowing::draw_rear(path, snapshots, "rear");
+    return Png(path);
+  };
+  EXPECT_GT(drawn(sheet_of("epiglottis", -5e-3f, 45e-3f)).share(yellow), 5e-3);
+  constexpr auto pink = [](int r, int g, int b) { return r > 200 && g < 200 && b > 150 && r > g + 20; };
+  EXPECT_LT(drawn(sheet_of("pharynx", 10e-3f, 45e-3f)).share(pink), 1e-4) << "the posterior wall is removed";
+  EXPECT_GT(drawn(sheet_of("pharynx", -5e-3f, 45e-3f)).share(pink), 1e-3) << "the right side wall stays";
+}
+
+TEST(Pictures, SectionsShowTheirHeight) {
+  const TemporaryFolder folder;
+  const Snapshots snapshots(folder.path() / "snapshots");
+  const auto path = folder.path() / "sections.png";
+  snapshots.add(1.667, sheet_of("tongue", 0, 40e-3f));
+  swallowing::draw_sections(path, snapshots, "sections");
+  EXPECT_GT(Png(path).share(red), 5e-4);
+  snapshots.add(1.667, sheet_of("tongue", 0, 110e-3f));
+  swallowing::draw_sections(path, snapshots, "above all sections");
+  EXPECT_LT(Png(path).share(red), 1e-4) << "only that of the legend";
+}
+
+TEST(Pictures, OutlinesOfTwoLeavesAreRedAndYellow) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "outlines.png";
+  const std::array<swallowing::NamedSnapshots, 2> both{{{"X1", folder.path() / "a"}, {"Y1", folder.path() / "b"}}};
+  const Snapshots first(both[0].folder), second(both[1].folder);
+  first.add(1.7, sheet_of("epiglottis", -10e-3f, 40e-3f));
+  swallowing::draw_outlines(path, both);
+  EXPECT_FALSE(std::filesystem::exists(path)) << "the second leaf is missing";
+  second.add(1.7, sheet_of("epiglottis", 5e-3f, 40e-3f));
+  swallowing::draw_outlines(path, both);
+  const Png outlines(path);
+  const double reds = outlines.share([](int r, int g, int b) { return r > 170 && g < 60 && b < 70; });
+  const double yellows = outlines.share([](int r, int g, int b) { return r > 200 && g > 150 && b < 60; });
+  EXPECT_GT(reds, 2e-3);
+  EXPECT_LT(reds, 0.03) << "an outline, not an area";
+  EXPECT_NEAR(yellows / reds, 1, 0.3);
 }
 
 TEST(Pictures, TableAndFoldStandBesideThePaper) {
