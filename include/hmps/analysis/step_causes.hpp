@@ -69,6 +69,7 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   if (!detail::is_finite(found.limit)) return causes;
   const double dt = found.limit;
   const auto ask = [&](const std::string& name, auto& force) {
+    detail::require_force(force, "step_causes");
     detail::ProbedScene<T, D> scene(force, x, v, density, detail::trial_displacement<T>(settings), Serial{});
     scene.scale_speed(dt);
     detail::Direction<D> mode(n);

@@ -27,8 +27,8 @@ struct LawCheckSettings {
 ///     hmps::check_law(law);     // in three dimensions
 ///     hmps::check_law<2>(law);  // in plane strain
 ///
-/// Throws `InputError`, with F, the stress and the derivative, if either fails or a value is not finite, and for settings
-/// out of range.
+/// Throws `InputError`, with F, the stress and the derivative, if either fails or a value is not finite, and for
+/// settings out of range.
 template <int D = 3, class Law>
 void check_law(const Law& law, const LawCheckSettings& settings = {}) {
   using Tensor = Matrix<double, D>;

@@ -81,8 +81,9 @@ void for_each_cell(std::string_view line, Use&& use) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   detail::require(!text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF"), "hmps: ", table.source,
                   " is a text in UTF-16; save it in UTF-8 or ASCII");
-  detail::require(text.find('\n') != std::string_view::npos || detail::trimmed(text).find('\r') == std::string_view::npos,
-                  "hmps: ", table.source, " has lines that end in CR alone; save it with line ends of LF or CR LF");
+  detail::require(
+      text.find('\n') != std::string_view::npos || detail::trimmed(text).find('\r') == std::string_view::npos,
+      "hmps: ", table.source, " has lines that end in CR alone; save it with line ends of LF or CR LF");
   for (std::size_t line_number = 1; !text.empty(); ++line_number) {
     std::string_view line = detail::take_line(text);
     line = detail::trimmed(line.substr(0, line.find('#')));

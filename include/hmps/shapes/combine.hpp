@@ -44,8 +44,8 @@ template <class S>
   return is_nan(a) ? a : is_nan(b) ? b : std::max(a, b);
 }
 
-/// Polynomial smooth minimum: `smaller(a, b)` where they differ by more than `width`, at most `width / 4` below it where
-/// they are equal; continuously differentiable.
+/// Polynomial smooth minimum: `smaller(a, b)` where they differ by more than `width`, at most `width / 4` below it
+/// where they are equal; continuously differentiable.
 template <class S>
 [[nodiscard]] S smooth_min(S a, S b, S width) {
   const S least = smaller(a, b);
@@ -61,7 +61,8 @@ template <class S>
 template <class A, class B, class... More>
 [[nodiscard]] auto unite(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
-    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return detail::smaller(a(x), b(x)); }};
+    return detail::Combined{
+        [a = std::move(a), b = std::move(b)](const auto& x) { return detail::smaller(a(x), b(x)); }};
   else
     return unite(unite(std::move(a), std::move(b)), std::move(more)...);
 }
@@ -97,7 +98,8 @@ template <class A>
 template <class A, class B, class... More>
 [[nodiscard]] auto subtract(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
-    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return detail::larger(a(x), -b(x)); }};
+    return detail::Combined{
+        [a = std::move(a), b = std::move(b)](const auto& x) { return detail::larger(a(x), -b(x)); }};
   else
     return subtract(subtract(std::move(a), std::move(b)), std::move(more)...);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
@@ -26,6 +27,15 @@ concept Shape = requires(const F& shape, const Vector<S, D>& x) {
 };
 
 namespace detail {
+/// Fails to compile for a shape `F` that returns a truth value at a position `V`: as a number it is never negative, so
+/// that the shape would be empty.
+template <class F, class V>
+struct RequireDistance {
+  static_assert(!std::same_as<std::remove_cvref_t<std::invoke_result_t<const F&, const V&>>, bool>,
+                "hmps: a shape returns its signed distance in m, negative inside, not whether a point is inside; write "
+                "`return is_inside ? -1.0 : 1.0` if only the sign matters");
+  static constexpr bool value = true;
+};
 /// `distance`, or NaN for a shape that does not exist because its size is negative. Functions that sample shapes refuse
 /// NaN.
 template <class S>
