@@ -388,9 +388,10 @@ TEST(FitParticles, RefusesWhatCannotBeFitted) {
              "hmps: the shape is NaN at ("));
   for (const hmps::FitSettings& bad :
        {hmps::FitSettings{.least_layers = 0}, hmps::FitSettings{.least_layers = 9},
-        hmps::FitSettings{.thinnest_spacing = 0}, hmps::FitSettings{.thinnest_spacing = 1.1},
-        hmps::FitSettings{.longest_edge = 0}, hmps::FitSettings{.iterations = 0},
-        hmps::FitSettings{.least_support = -0.1}, hmps::FitSettings{.least_support = nan}})
+        hmps::FitSettings{.thinnest_spacing = 0}, hmps::FitSettings{.thinnest_spacing = 0.6e-3},
+        hmps::FitSettings{.thinnest_spacing = 1.1}, hmps::FitSettings{.longest_edge = 0},
+        hmps::FitSettings{.iterations = 0}, hmps::FitSettings{.least_support = -0.1},
+        hmps::FitSettings{.least_support = nan}})
     EXPECT_NE(message_of([&] { (void)fit_particles(ball, box, 1.0, bad); }), "none");
 
   // A plate of one spacing holds one layer, not the two of the default. A thin fin is found on a thick body too.
