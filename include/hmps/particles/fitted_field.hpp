@@ -155,6 +155,8 @@ class FittedField {
   struct Found {
     std::vector<Sample<D>> samples;
     std::vector<SurfacePoint<D>> surface;
+    bool at_surface = false;  // whether the surface crosses the cell
+    bool is_distance = true;  // whether the shape changes there by about a metre per metre
   };
 
   /// Interleaves the bits of the indices of a cell: cells that are close in this order are close in space.

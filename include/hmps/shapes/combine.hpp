@@ -185,7 +185,7 @@ template <class A, class S, int D>
 }
 
 /// The half of a shape where coordinate `axis` exceeds `at`, and its mirror image: describes left and right at once.
-/// `axis` is 0, 1 or, in three dimensions, 2; throws `InputError` for others.
+/// `axis` is 0, 1 or, in three dimensions, 2; throws `InputError` for others: for 2 in the plane when it is evaluated.
 template <class A, class S = double>
 [[nodiscard]] auto mirrored(A a, int axis, S at = S(0)) {
   detail::require(axis >= 0 && axis <= 2, "hmps: a shape is mirrored along the axis ", axis,
@@ -193,6 +193,8 @@ template <class A, class S = double>
   return detail::Combined{[a = std::move(a), axis, at](const auto& x) {
     using Scalar = typename std::decay_t<decltype(x)>::Scalar;
     auto folded = x;
+    detail::require(axis < x.size(), "hmps: a shape in ", x.size(), " dimensions is mirrored along the axis ", axis,
+                    "; give 0 or 1 for x or y");
     folded[axis] = static_cast<Scalar>(at) + std::abs(x[axis] - static_cast<Scalar>(at));
     return a(folded);
   }};

@@ -152,6 +152,8 @@ TEST(CombineMisuse, IsRefused) {
   for (const double beyond : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW((void)hmps::translated(ball, V(beyond, 0, 0)), hmps::InputError);
   for (const int axis : {-1, 3}) EXPECT_THROW((void)hmps::mirrored(ball, axis), hmps::InputError);
+  const auto in_the_plane = hmps::mirrored(hmps::Ball<double, 2>{.radius = 1}, 2);
+  EXPECT_THROW((void)in_the_plane(Vector<double, 2>(0, 0)), hmps::InputError);
 }
 
 // `std::min` drops a NaN in second place.
