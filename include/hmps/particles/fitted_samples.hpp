@@ -71,12 +71,13 @@ void FittedField<D>::sample_cell(const Point& centre, Found& found) const {
       if (cut.volume > 0) found.samples.push_back(cut);
     }
   }
-  // A change of sign is not required, because a face may lie between two cells.
-  if (!inside || nearest > steepest * half_diagonal) return;
   const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
   const double slope = (*most - *least) / ((parts - 1) * edge);
-  found.at_surface = true;
   found.is_distance = slope > 0.1 && slope < 4 * std::sqrt(static_cast<double>(D));
+  // A change of sign is not required, because a face may lie between two cells.
+  const bool is_close = nearest <= steepest * half_diagonal;
+  found.at_surface = inside && (is_close || *most > 0);
+  if (!inside || !is_close) return;
   if (const auto point = surface_at(at)) {
     found.surface.push_back(*point);
     find_other_side_of_gap(centre, distances, found);
@@ -160,7 +161,7 @@ void FittedField<D>::sample(const AnyExecutor& execute) {
     odd += here->at_surface && !here->is_distance;
   }
   require(
-      2 * odd <= at_surface, "hmps: in ", odd, " of ", at_surface,
+      4 * odd <= at_surface, "hmps: in ", odd, " of ", at_surface,
       " cells at the surface, the shape to fit particles in changes by less than 0.1 or more than 4 m per metre; it "
       "must be about the signed distance in metres: give redistanced(shape, box, spacing / 4)");
   require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower.transpose(), ") to (",
