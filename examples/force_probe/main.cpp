@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <hmps/motion/csv.hpp>
 #include <iostream>
 #include <string>
+#include <system_error>
 
 #include "../common/arguments.hpp"
 #include "../common/csv_writer.hpp"
@@ -105,6 +107,9 @@ int main(int argc, char** argv) {
   if (hat->empty()) settings.young_hat = settings.young;
   settings.paper_friction = law == "paper";
   try {
+    std::error_code missing;
+    examples::require(out.empty() || !std::filesystem::equivalent(in, out, missing), out,
+                      " is the state itself, which the forces would replace; give --out another name");
     const State state = read_state(in);
     const std::string table =
         table_of(scalar == "float" ? probe<float>(state, settings) : probe<double>(state, settings));

@@ -89,6 +89,8 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
 }
 
 int main(int argc, char** argv) try {
+  examples::require(argc <= 4, "press: '", argv[std::min(argc - 1, 4)], "' is one argument too many; give at most the ",
+                    "number of particles, a surface and its scale");
   const auto number = [&](int k, const char* name, double otherwise) {
     const auto value = argc > k ? examples::decimal<double>(argv[k]) : otherwise;
     examples::require(value.value_or(0) > 0, "press: ", name, " is '", argv[std::min(k, argc - 1)],

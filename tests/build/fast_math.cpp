@@ -126,6 +126,12 @@ int main() {
   refuses("shape to fit particles in", nan, [&] {
     (void)hmps::fit_particles([&](const V&) { return nan; }, hmps::Box<double, 3>{V(0, 0, 0), V(1, 1, 1)}, 0.5);
   });
+  const hmps::Box<double, 3> box{V(0, 0, 0), V(1, 1, 1)};
+  const hmps::Ball<double, 3> ball{V(0, 0, 0), 1}, none{V(0, 0, 0), -1};
+  const hmps::Cylinder<double, 3> flat{V(0, 0, 0), V(0, 0, 0), 1};
+  refuses("second of two united shapes", nan, [&] { (void)hmps::fill_lattice(hmps::unite(ball, none), box, 0.5); });
+  refuses("subtracted shape", nan, [&] { (void)hmps::fill_lattice(hmps::subtract(ball, none), box, 0.5); });
+  refuses("cylinder without a direction", nan, [&] { (void)hmps::fill_lattice(flat, box, 0.5); });
   refuses("time of a track", nan, [&] { (void)hmps::Track{{0.0, 1.0}}.value(nan); });
   return silent == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

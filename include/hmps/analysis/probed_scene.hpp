@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -28,6 +29,18 @@ concept ProbedForce = requires(Force& force, const VectorView<const T, D>& x, co
 };
 
 namespace detail {
+
+/// Throws `InputError` if `force`, which was given to `what`, is a function without content, such as a `ForceFunction`
+/// to which nothing was assigned.
+template <class Force>
+void require_force([[maybe_unused]] const Force& force, [[maybe_unused]] const char* what) {
+  if constexpr (requires {
+                  typename Force::result_type;
+                  { force == nullptr } -> std::convertible_to<bool>;
+                })
+    require(!(force == nullptr), "hmps: the force given to ", what,
+            " is an empty function; assign a force to it, such as the result of internal_force");
+}
 
 /// Pseudo-random number in (-1, 1), a function of `number` alone (splitmix64).
 [[nodiscard]] inline double noise(std::uint64_t number) {

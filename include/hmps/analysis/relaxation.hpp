@@ -40,10 +40,10 @@ namespace hmps::inline HMPS_ABI {
 /// @param f      force densities; at the end those at rest, which for particles that do not move are the reactions
 /// @param rho    density in kg/m3, a number or a `ScalarView`
 /// The result does not depend on the executor if the force does not. Positions in float may be too coarse for a small
-/// tolerance; keep them in double. Throws `InputError` for bad settings, a spacing far from that of the particles,
-/// views of different sizes, values that are not finite, and a force that never writes anything. Throws `StateError` if
-/// a force is not finite, if nothing holds the body so that it flies away, and after `max_iterations`; the state is
-/// then the last one reached.
+/// tolerance; keep them in double. Throws `InputError` for bad settings, an empty function as force, a spacing far from
+/// that of the particles, views of different sizes, values that are not finite, and a force that never writes anything.
+/// Throws `StateError` if a force is not finite, if nothing holds the body so that it flies away, and after
+/// `max_iterations`; the state is then the last one reached.
 template <class Force, class X, class V, class F, int D, PerParticle Rho, Executor E = Serial>
 Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                  const Rho& rho, const RelaxationSettings& settings, const E& execute = {}) {
@@ -53,6 +53,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   static_assert(std::invocable<Force&, const Read&, const VectorView<const V, D>&, const VectorView<F, D>&>,
                 "hmps: relax calls force(x, v, f) with read-only views of positions and velocities and a view of the "
                 "force densities; a composed force must not be const");
+  detail::require_force(force, "relax");
   detail::require_relaxable(x, v, f, rho, settings);
   detail::RelaxingBody body(x, v, f, rho, settings, execute);
 

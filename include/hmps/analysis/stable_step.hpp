@@ -47,9 +47,9 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
-/// bad settings or views, for a spacing that is not in the unit of the positions, for trial displacements that vanish
-/// in the rounding of the positions, and if `start` or a set of particles in `moves` is for a different number of
-/// particles; `StateError` if the force of a particle is not finite.
+/// bad settings or views, for an empty function as force, for a spacing that is not in the unit of the positions, for
+/// trial displacements that vanish in the rounding of the positions, and if `start` or a set of particles in `moves` is
+/// for a different number of particles; `StateError` if the force of a particle is not finite.
 template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Serial>
 [[nodiscard]] StableStep stable_step(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
                                      const Rho& density, const StableStepSettings& settings, const E& execute = {}) {
@@ -58,6 +58,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
                 "hmps: stable_step calls force(x, v, f) with VectorView<const T, D>, VectorView<const T, D> and "
                 "VectorView<T, D> of the scalar of the positions; a composed force must not be const");
   detail::validate(settings);
+  detail::require_force(force, "stable_step");
   detail::require(x.size() > 0, "hmps: stable_step was given no particles");
   require_size(v, x.size(), "velocities");
   require_positive(density, x.size(), "density", "kg/m3");

@@ -45,7 +45,8 @@ struct StepCause {
 /// elastic(law))`; the shares then add up to 1. A part with a negative share softens the mode. Takes two force
 /// evaluations per part, and two more if the part depends on velocities.
 ///
-/// The other arguments are those of `stable_step`. Throws as that does.
+/// The other arguments are those of `stable_step`. Throws as that does, and `InputError` for parts that add up to more
+/// than the whole, as those of another density do.
 template <class X, class V, int D, PerParticle Rho, class... Forces>
 [[nodiscard]] std::vector<StepCause> step_causes(const StableStep& found, const VectorView<X, D>& x,
                                                  const VectorView<V, D>& v, const Rho& density,
@@ -69,6 +70,7 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   if (!detail::is_finite(found.limit)) return causes;
   const double dt = found.limit;
   const auto ask = [&](const std::string& name, auto& force) {
+    detail::require_force(force, "step_causes");
     detail::ProbedScene<T, D> scene(force, x, v, density, detail::trial_displacement<T>(settings), Serial{});
     scene.scale_speed(dt);
     detail::Direction<D> mode(n);
@@ -79,6 +81,11 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
     causes.push_back({name, k, c, (dt * dt * k + 2 * dt * c) / 4});
   };
   (ask(parts.name, parts.force), ...);
+  double sum = 0;
+  for (const StepCause& cause : causes) sum += cause.share;
+  constexpr double most = 1.5;  // far above the errors of differences
+  detail::require(sum < most, "hmps: the shares of the ", causes.size(), " parts given to step_causes sum to ", sum,
+                  " instead of 1; give each part of the force once, and the state and density that `stable_step` had");
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
   return causes;
 }

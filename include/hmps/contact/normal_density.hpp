@@ -28,10 +28,12 @@ namespace hmps::inline HMPS_ABI {
 template <class S, int D, Metaball Kernel = PaperMetaball>
 class NormalDensity {
  public:
-  /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite, and for a kernel that forms no wall.
+  /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite, for a kernel that forms no wall, and
+  /// for one whose slope is not the derivative of its value: forces would not point out of the wall.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
     detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
                     " m; give the positive distance between neighbouring particles in the reference configuration");
+    require_slope();
     find_deepest();
     const double top = in_spacings(deepest_);
     detail::require(detail::is_finite(top) && top > 0 && least_slope_ > 0,
@@ -89,6 +91,21 @@ class NormalDensity {
 
  private:
   static constexpr std::size_t nodes = 1024;
+
+  /// Compares the slope of the kernel with differences of its value.
+  static void require_slope() {
+    constexpr double h = 1e-4, share = 0.1;  // of the steepest slope: more than rounding, and less than a wrong factor
+    double steepest = 0;
+    for (double s = 0.07; s < 0.95; s += 0.0931)
+      steepest = std::max(steepest, std::abs(static_cast<double>(Kernel::slope(s))));
+    for (double s = 0.07; s < 0.95; s += 0.0931) {
+      const auto given = static_cast<double>(Kernel::slope(s));
+      const auto found = static_cast<double>(Kernel::value(s + h) - Kernel::value(s - h)) / (2 * h);
+      detail::require(!detail::is_finite(given + found) || std::abs(given - found) <= share * steepest,
+                      "hmps: the metaball kernel has the slope ", given, " at s = ", s, ", but its value has ", found,
+                      " there; `slope` must return dc/ds, with s the square of r / r_e");
+    }
+  }
 
   /// The sum of metaballs of one layer at the distance of `h` spacings, integrated over the layer.
   [[nodiscard]] static double layer(double h) {

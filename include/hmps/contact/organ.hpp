@@ -54,7 +54,7 @@ struct PairSettings {
 /// lists the particles of the other organ that are bonded to the slaves' organ. Where two organs grow together, their
 /// surfaces must not push each other apart. The distance is in metres, so that it does not shrink with the spacing. The
 /// result is sorted by index, for `PairSettings::excluded_slaves`. Throws `InputError` for an index out of range and a
-/// distance that is not positive and finite.
+/// distance that is not positive and finite, or longer than both lists of particles together.
 template <class T, int D>
 [[nodiscard]] std::vector<Index> exclude_attached(const VectorView<T, D>& reference, std::span<const Index> slaves,
                                                   std::span<const Index> attachment, double distance) {
@@ -65,6 +65,18 @@ template <class T, int D>
     for (const Index i : list)
       detail::require(i < reference.size(), "hmps: particle ", i, " is given to exclude_attached but there are only ",
                       reference.size(), " reference positions; give indices into their view");
+  if (!slaves.empty() && !attachment.empty()) {
+    Vector<double, D> low = reference[slaves[0]].template cast<double>(), high = low;
+    for (const auto list : {slaves, attachment})
+      for (const Index i : list) {
+        low = low.cwiseMin(reference[i].template cast<double>());
+        high = high.cwiseMax(reference[i].template cast<double>());
+      }
+    const double extent = (high - low).norm();
+    detail::require(!(distance > extent && extent > 0), "hmps: the distance for excluding slaves is ", distance,
+                    " m, but slaves and attachment together span only ", extent,
+                    " m, so that all slaves would be excluded; give a distance of a few spacings, in metres");
+  }
   detail::Grid<S, D> grid;
   grid.build(attachment.size(), static_cast<S>(distance), [&](std::size_t k) { return reference[attachment[k]]; });
   std::vector<Index> out;

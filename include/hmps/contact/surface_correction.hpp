@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -14,6 +15,7 @@
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/search/nearest_spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -36,17 +38,17 @@ class SurfaceCorrection {
   /// @param skin       the outermost particles: the slaves of the organ
   /// @param shape      `shape(x)`, approximately the signed distance to the surface in m, negative inside
   /// @param spacing    l0 in m
-  /// Throws `InputError` for a particle that does not exist or lies further than 1.5 spacings from its proper place, if
-  /// the shape does not tell which way is out, and if most particles lie outside the shape: it is inside out.
+  /// Throws `InputError` for a spacing that is not that of the skin, a particle that does not exist or lies further
+  /// than 1.5 spacings from its proper place, if the shape does not tell which way is out, and if most particles lie
+  /// outside the shape: it is inside out.
   template <class T, class Shape>
   SurfaceCorrection(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
     detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
                     " m; give the positive distance between neighbouring particles in the reference configuration");
+    require_spacing(reference, spacing);
     std::size_t outside = 0;
     for (const Index i : skin_) {
-      detail::require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
-                      reference.size(), " particles");
       const Vector<double, D> start = reference[i].template cast<double>();
       const auto offset = offset_of(start, shape, spacing);
       detail::require(
@@ -109,9 +111,26 @@ class SurfaceCorrection {
   [[nodiscard]] const std::vector<Vector<S, D>>& offsets() const { return offset_; }
 
  private:
+  /// Throws `InputError` for a particle of the skin that does not exist, and unless `spacing` (m) is about the distance
+  /// of neighbours in the skin, which on a lattice is up to the diagonal of a cell.
+  template <class T>
+  void require_spacing(const VectorView<T, D>& reference, double spacing) const {
+    constexpr std::size_t fewest = 16;  // for fewer, distances say little
+    std::vector<Vector<double, D>> places;
+    for (const Index i : skin_) {
+      detail::require(i < reference.size(), "hmps: particle ", i, " is to be raised to the surface but there are only ",
+                      reference.size(), " particles");
+      places.push_back(reference[i].template cast<double>());
+    }
+    if (places.size() >= fewest) detail::require_spacing_of(vectors(places), spacing, "a surface correction", 1.9);
+  }
   template <class Shape>
   [[nodiscard]] static double distance(const Shape& shape, const Vector<double, D>& x) {
-    return static_cast<double>(shape(Vector<S, D>(x.template cast<S>())));
+    const auto value = shape(Vector<S, D>(x.template cast<S>()));
+    static_assert(!std::is_same_v<std::remove_cv_t<decltype(value)>, bool>,
+                  "hmps: the shape of a surface correction returns its signed distance in m, negative inside, not "
+                  "whether a point is inside");
+    return static_cast<double>(value);
   }
 
   std::vector<Index> skin_;

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -55,6 +56,8 @@ void for_each_in_chunks(std::size_t n, const AnyExecutor& execute, const Body& b
 template <class T, class Term, class Combine, Executor E = Serial>
 [[nodiscard]] T reduce(std::size_t n, T start, Term&& term, Combine&& combine, const E& execute = {}) {
   static_assert(!std::same_as<T, bool>, "hmps: reduce to int, not bool: the chunks are written concurrently");
+  static_assert(!(std::integral<T> && std::floating_point<std::remove_cvref_t<decltype(term(n))>>),
+                "hmps: reduce starts from an integer, to which its terms would be rounded; start from 0.0");
   constexpr std::size_t chunk = detail::chunk;
   const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<T> partial;  // assigned, because g++ 12 warns of an invalid free in the filling constructor

@@ -5,6 +5,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <type_traits>
+
+#include "hmps/core/abi.hpp"
 
 /// Particle mechanics for soft tissue by the Hamiltonian MPS method. SI units everywhere.
 namespace hmps {
@@ -22,3 +25,16 @@ template <class T, int D>
 using Matrix = Eigen::Matrix<T, D, D, Eigen::DontAlign>;
 
 }  // namespace hmps
+
+namespace hmps::inline HMPS_ABI::detail {
+
+/// Fails to compile for parameters of an integer type: a formula such as 4 / 3 of a modulus would be rounded.
+template <class P>
+struct RequireReal {
+  static_assert(!std::is_integral_v<P>,
+                "hmps: a formula is given integers, to which its results would be rounded; write numbers with a "
+                "decimal point, such as 7e3 or 0.5");
+  static constexpr bool value = true;
+};
+
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -12,9 +12,24 @@
 
 namespace hmps::inline HMPS_ABI {
 
+namespace detail {
+/// Whether two numbers of `view` share memory, of different particles or of different components, as when one array is
+/// given for two components. `apart` is the stride without its sign, at least the size of a scalar.
+template <class T, int N>
+[[nodiscard]] bool overlaps_itself(const View<T, N>& view, std::size_t apart) {
+  for (int c = 0; c < N; ++c)
+    for (int d = 0; d < c; ++d) {
+      const auto a = reinterpret_cast<std::uintptr_t>(view.base(c)), b = reinterpret_cast<std::uintptr_t>(view.base(d));
+      const std::uintptr_t distance = a > b ? a - b : b - a;
+      if (distance % apart == 0 && distance / apart < view.size()) return true;
+    }
+  return false;
+}
+}  // namespace detail
+
 /// Throws `InputError` unless `view`, called `name` in the message, describes valid memory: no component starts at
-/// null, all addresses are aligned, and if the view is writable, no two particles share memory. A read-only view may
-/// have the stride 0, one value for all particles. Does not access the particles.
+/// null, all addresses are aligned, and if the view is writable, no two of its numbers share memory. A read-only view
+/// may have the stride 0, one value for all particles. Does not access the particles.
 template <class T, int N>
 void require_view(const View<T, N>& view, const char* name) {
   if (view.size() == 0) return;
@@ -30,10 +45,15 @@ void require_view(const View<T, N>& view, const char* name) {
                   " particles but a null address; give it memory");
   detail::require(bits % alignof(T) == 0, "hmps: the view of ", name, " is not aligned: addresses and stride (", stride,
                   " bytes) must be multiples of ", alignof(T), "; copy the members of packed structs to arrays first");
-  if constexpr (!std::is_const_v<T>)
+  if constexpr (!std::is_const_v<T>) {
     detail::require(view.size() == 1 || apart >= sizeof(T), "hmps: the view of ", name,
                     " is writable, but its stride of ", stride,
                     " bytes puts several particles in one place; a scalar takes ", sizeof(T), " bytes");
+    detail::require(!detail::overlaps_itself(view, view.size() > 1 ? apart : sizeof(T)), "hmps: the view of ", name,
+                    " is writable, but several of its components lie in one place at a stride of ", stride,
+                    " bytes; give each component an array of its own, and the stride in bytes from particle to "
+                    "particle");
+  }
 }
 
 /// Throws `InputError` unless `view`, called `name` in the message, is valid (`require_view`) and holds `size`

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -43,8 +44,11 @@ class View {
     return *reinterpret_cast<T*>(reinterpret_cast<Byte*>(base(c)) + static_cast<std::ptrdiff_t>(i) * stride_);
   }
 
-  /// The particles `[first, first + count)` of this view.
+  /// The particles `[first, first + count)` of this view. Throws `InputError` if the view ends before the last of them.
   [[nodiscard]] View part(std::size_t first, std::size_t count) const {
+    detail::require(first <= size_ && count <= size_ - first, "hmps: a part of ", count, " particles from particle ",
+                    first, " on is asked for, but the view has only ", size_,
+                    "; give the first particle, then how many");
     std::array<T*, std::size_t{N}> moved{};
     for (int c = 0; c < N; ++c) moved[static_cast<std::size_t>(c)] = count == 0 ? base(c) : &(*this)(first, c);
     return {moved, count, stride_};

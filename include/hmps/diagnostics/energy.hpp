@@ -22,7 +22,9 @@
 /// Energies of a body in J (in two dimensions per metre of thickness), summed in double and in an order that does not
 /// depend on the executor. `volume` is the volume of a particle in the reference configuration, l0^D on a lattice.
 /// Without viscosity, contact and forced displacements, the scheme conserves kinetic + strain + artificial energy.
-/// `InternalForce::energy` returns the energies of all its terms.
+/// `InternalForce::energy` returns the energies of all its terms. All of them throw `InputError` for views of the wrong
+/// size, for volumes, densities and moduli that are not positive (of each particle too, if the law is a callable), and
+/// for volumes other than those that the bonds were made with, if they were given any.
 namespace hmps::inline HMPS_ABI {
 
 /// Kinetic energy, sum of m |v|^2 / 2 with m = density * volume.
@@ -54,7 +56,7 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] double strain_energy(const MatrixView<T, D>& F, const Material& material, const Vol& volume,
                                    const E& execute = {}) {
   detail::require_recorded(F);
-  if constexpr (requires { material.validate(); }) material.validate();
+  detail::require_material(material, F.size());
   require_positive(volume, F.size(), "volume", "m3");
   return reduce(
       F.size(), 0.0,
@@ -116,6 +118,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   require_size(F, bonds.size(), "deformation gradients");
   detail::require_recorded(F);
   require_positive(volume, bonds.size(), "volume", "m3");
+  detail::require_volumes_of(bonds, volume);
   detail::require_not_negative(modulus, bonds.size(), "modulus of the stabiliser", "Pa");
   using K = typename B::Scalar;
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
@@ -151,6 +154,7 @@ template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, E
   require_size(F, bonds.size(), "deformation gradients");
   detail::require_recorded(F);
   require_positive(volume, bonds.size(), "volume", "m3");
+  detail::require_volumes_of(bonds, volume);
   const auto scales = detail::neighbourhood_scales(bonds);
   detail::require_not_negative(bulk, bonds.size(), "bulk modulus of mean_dilatation_energy", "Pa");
   const auto theta = detail::mean_dilatations(bonds, F, scales, Means, execute);

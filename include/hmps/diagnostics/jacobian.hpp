@@ -40,8 +40,8 @@ struct EveryParticle {
 
 /// Statistics of det F over the particles for which `counts(i)` holds, for example those outside the control regions,
 /// as in section 4.1 of the paper. Throws `InputError` if there are none, for a set of another scene, for an interval
-/// whose bounds are interchanged, and for an F of zeros, which means that nothing has written it. A NaN in F gives a
-/// NaN mean; `check_state` finds the particle.
+/// whose bounds are interchanged or per cent, and for an F of zeros, which means that nothing has written it. A NaN in
+/// F gives a NaN mean; `check_state` finds the particle.
 ///
 /// @param F  deformation gradients, \paper{11}
 template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
@@ -51,6 +51,8 @@ template <class T, int D, class Counts = EveryParticle, Executor E = Serial>
   detail::require(!detail::is_nan(interval.low) && !detail::is_nan(interval.high) && interval.low <= interval.high,
                   "hmps: the interval of det F reaches from ", interval.low, " to ", interval.high,
                   "; give its lower bound first");
+  detail::require(interval.low < 10, "hmps: the interval of det F reaches from ", interval.low, " to ", interval.high,
+                  ", which no tissue reaches; give ratios, 0.98 and 1.02 for 98 and 102 per cent");
   detail::require_scene(counts, F.size(), "to be counted");
   struct Sum : JacobianStatistics {
     std::size_t within = 0;

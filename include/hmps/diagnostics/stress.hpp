@@ -87,7 +87,7 @@ template <class T, int D, class Material, class R, int N, class Value, class E>
 void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const View<R, N>& stress, const char* name,
                      const Value& value, const E& execute) {
   require_recorded(F);
-  if constexpr (requires { material.validate(); }) material.validate();
+  require_material(material, F.size());
   require_size(stress, F.size(), "stresses");
   require_apart(stress, "stresses", F, "deformation gradients");
   execute(F.size(), [&](std::size_t i) {
@@ -108,7 +108,8 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
 /// @param F         deformation gradients, \paper{11}
 /// @param material  a law, or a callable of `OneParticle` that returns the law of each particle
 /// @param stress    where the stresses are written, column-major
-/// Throws `InputError` for views of different sizes, and `StateError`, naming the particle, if a stress is not finite.
+/// Throws `InputError` for views of different sizes and for a law whose moduli are not positive, also if it is that of
+/// a single particle, and `StateError`, naming the particle, if a stress is not finite.
 template <class T, int D, class Material, class R, Executor E = Serial>
 void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
                      const E& execute = {}) {

@@ -129,8 +129,9 @@ class InternalForce {
   ///
   /// @param volume  of a particle in the reference configuration in m^D, l0^D on a lattice: a number, a view or a
   ///                callable
-  /// Throws `InputError` for views of the wrong size, and for a volume that is not positive or cannot be that of a
-  /// particle with these bonds. A term of your own needs its own energy: see `ParticleState`.
+  /// Throws `InputError` for views of the wrong size, for a volume that is not positive or cannot be that of a particle
+  /// with these bonds, and for volumes other than those that the bonds were made with, if they were given any. A term
+  /// of your own needs its own energy: see `ParticleState`.
   template <class X, PerParticle Vol, Executor E = Serial>
   [[nodiscard]] ForceEnergy<sizeof...(Terms)> energy(const VectorView<X, D>& x, const Vol& volume,
                                                      const E& execute = {}) const {
@@ -138,6 +139,7 @@ class InternalForce {
     require_size(x, now.size(), "positions");
     require_positive(volume, now.size(), "volume", "m3");
     if (now.size() > 0) require_volume(now, detail::mean_of(volume, now.size()));
+    detail::require_volumes_of(now, volume);
     const typename B::template Slots<1>* scales = nullptr;
     if constexpr (dilates) scales = &sweeps_.scales();
     return detail::energies(now, sweeps_.terms(), scales, x, volume, execute);

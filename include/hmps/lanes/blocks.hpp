@@ -40,11 +40,17 @@ class Blocks : public detail::Anchored {
   [[nodiscard]] std::size_t slot_count() const { return particle_of_.size(); }
   /// The particle in `slot`, or `none`.
   [[nodiscard]] Index particle(std::size_t slot) const { return particle_of_[slot]; }
-  [[nodiscard]] std::size_t slot(std::size_t particle) const { return slot_of_[particle]; }
+  /// The slot of `particle`. Throws `InputError`, like all functions here and in bonds that take the number of a
+  /// particle, for one that does not exist.
+  [[nodiscard]] std::size_t slot(std::size_t particle) const {
+    detail::require(particle < slot_of_.size(), "hmps: bonds are asked for particle ", particle,
+                    ", but they hold only ", slot_of_.size(), " particles; number them from 0");
+    return slot_of_[particle];
+  }
 
   /// Component `c` of the reference position of `particle`, in m.
   [[nodiscard]] double reference(std::size_t particle, int c) const {
-    return reference_(static_cast<std::size_t>(c), slot_of_[particle]);
+    return reference_(static_cast<std::size_t>(c), slot(particle));
   }
   /// The reference position of `particle`, in m.
   [[nodiscard]] Vector<double, D> reference(std::size_t particle) const {
@@ -56,12 +62,12 @@ class Blocks : public detail::Anchored {
   [[nodiscard]] Matrix<K, D> shape_inverse(std::size_t particle) const {
     Matrix<K, D> inverse;
     for (int r = 0; r < D; ++r)
-      for (int c = 0; c < D; ++c) inverse(r, c) = shape_(symmetric(r, c), shape_slot(slot_of_[particle]));
+      for (int c = 0; c < D; ++c) inverse(r, c) = shape_(symmetric(r, c), shape_slot(slot(particle)));
     return inverse;
   }
   /// tr A = sum |r0|^2 w of `particle`, in m2, the sum in \paper{20}.
   [[nodiscard]] K shape_trace(std::size_t particle) const {
-    return K(1) / shape_(inverse_trace, shape_slot(slot_of_[particle]));
+    return K(1) / shape_(inverse_trace, shape_slot(slot(particle)));
   }
 
   /// Before displacements are rounded to `K`, the sweeps subtract the displacement of one particle in the middle of

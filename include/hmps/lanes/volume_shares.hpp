@@ -82,4 +82,23 @@ template <class B>
     return 1;
 }
 
+/// Throws `InputError` if `bonds` were given the volumes of their particles and `volume` (m^D), a `PerParticle`, is not
+/// proportional to them: an energy would not be that of the force. Rounding is tolerated.
+template <class B, class Vol>
+void require_volumes_of(const B& bonds, const Vol& volume) {
+  if constexpr (requires { bool(bonds.knows_volumes()); }) {
+    const std::size_t n = bonds.size();
+    if (n == 0 || !bonds.knows_volumes()) return;
+    double shares = 0;
+    for (std::size_t i = 0; i < n; ++i) shares += bonds.volume_share(i);
+    const double cell = mean_of(volume, n) * static_cast<double>(n) / shares;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double given = static_cast<double>(at_particle(volume, i)), own = cell * bonds.volume_share(i);
+      require(std::abs(given - own) <= 1e-3 * own, "hmps: the volume of particle ", i, " is ", given, " m",
+              B::dimension, ", but the volumes that its bonds were made with give it ", own, " m", B::dimension,
+              "; pass the same volumes, one for each particle");
+    }
+  }
+}
+
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -16,7 +16,7 @@ namespace hmps::inline HMPS_ABI {
 /// Settings of `check_law`.
 struct LawCheckSettings {
   double strain = 0.2;       ///< Largest component of F - 1 that is tried, above 0 and at most 0.25.
-  double tolerance = 1e-6;   ///< Largest error of the stress, as a fraction of it.
+  double tolerance = 1e-6;   ///< Largest error of the stress, as a fraction of it, above 0 and at most 0.1.
   bool prestressed = false;  ///< Whether the law may have a stress at F = 1, as active or growing tissue has.
 };
 
@@ -27,7 +27,8 @@ struct LawCheckSettings {
 ///     hmps::check_law(law);     // in three dimensions
 ///     hmps::check_law<2>(law);  // in plane strain
 ///
-/// Throws `InputError`, with F, the stress and the derivative, if either fails or a value is not finite.
+/// Throws `InputError`, with F, the stress and the derivative, if either fails or a value is not finite, and for
+/// settings out of range.
 template <int D = 3, class Law>
 void check_law(const Law& law, const LawCheckSettings& settings = {}) {
   using Tensor = Matrix<double, D>;
@@ -35,9 +36,11 @@ void check_law(const Law& law, const LawCheckSettings& settings = {}) {
       LawWithEnergy<Law, double, D>,
       "hmps: check_law compares the stress of a law with its energy; give it energy(C, J), or energy(F) if it "
       "is a law of the deformation gradient");
-  detail::require(settings.strain > 0 && settings.strain <= 0.25 && settings.tolerance > 0,
-                  "hmps: check_law was given a strain of ", settings.strain, " and a tolerance of ", settings.tolerance,
-                  "; the first must be above 0 and at most 0.25, the second above 0");
+  const double strain = settings.strain, tolerance = settings.tolerance;
+  detail::require(detail::is_finite(strain) && strain > 0 && strain <= 0.25 && detail::is_finite(tolerance) &&
+                      tolerance > 0 && tolerance <= 0.1,
+                  "hmps: check_law was given a strain of ", strain, " and a tolerance of ", tolerance,
+                  "; give fractions: the first must be above 0 and at most 0.25, the second above 0 and at most 0.1");
   const auto stress = [&](const Tensor& F) { return first_piola_kirchhoff<Law, double, D>(law, F); };
   const auto energy = [&](const Tensor& F) { return energy_density<Law, double, D>(law, F); };
 

@@ -3,12 +3,14 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
+#include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -136,6 +138,24 @@ void require_order(P bulk, P shear, const char* law) {
           "; are the two interchanged? from_moduli takes the bulk modulus first");
 }
 
+/// Throws `InputError` for a law that rejects its own parameters, and, if `material` is a callable that gives the law
+/// of each of `size` particles, for a bulk or shear modulus that is not positive, with the particle.
+template <class Material>
+void require_material(const Material& material, std::size_t size) {
+  if constexpr (requires { material.validate(); }) {
+    material.validate();
+  } else if constexpr (requires {
+                         double(material(OneParticle{}).bulk_modulus() + material(OneParticle{}).shear_modulus());
+                       }) {
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto law = material(OneParticle{i});
+      const auto bulk = static_cast<double>(law.bulk_modulus()), shear = static_cast<double>(law.shear_modulus());
+      require(is_finite(bulk) && bulk > 0 && is_finite(shear) && shear > 0, "hmps: the law of particle ", i,
+              " has the bulk modulus ", bulk, " Pa and the shear modulus ", shear,
+              " Pa; both must be positive and finite");
+    }
+  }
+}
 }  // namespace detail
 
 }  // namespace hmps::inline HMPS_ABI

@@ -16,6 +16,7 @@ namespace hmps::inline HMPS_ABI {
 /// of the deformation gradient, because C does not contain the rotation. Two dimensions are plane strain.
 template <class P = double>
 struct LinearElastic {
+  static_assert(detail::RequireReal<P>::value);
   P lambda;  ///< first Lame constant in Pa
   P mu;      ///< shear modulus in Pa
 

@@ -27,6 +27,7 @@ namespace hmps::inline HMPS_ABI {
 /// `P` is the type of the parameters: a scalar, or a pack of lanes with one material per particle.
 template <class P = double>
 struct MooneyRivlin {
+  static_assert(detail::RequireReal<P>::value);
   P c1;  ///< C1 in Pa
   P c2;  ///< C2 in Pa
   P d1;  ///< D1 in Pa, half the bulk modulus

@@ -18,6 +18,7 @@ namespace hmps::inline HMPS_ABI {
 /// one at small strain only. Two dimensions are plane strain. `J` must be positive.
 template <class P = double>
 struct NeoHookean {
+  static_assert(detail::RequireReal<P>::value);
   P mu;     ///< shear modulus in Pa at zero strain
   P kappa;  ///< bulk modulus in Pa at zero strain
 

@@ -17,6 +17,7 @@ namespace hmps::inline HMPS_ABI {
 /// Two dimensions are plane strain.
 template <class P = double>
 struct SaintVenantKirchhoff {
+  static_assert(detail::RequireReal<P>::value);
   P lambda;  ///< first Lame constant in Pa
   P mu;      ///< shear modulus in Pa
 

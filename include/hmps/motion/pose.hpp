@@ -15,6 +15,7 @@ namespace hmps::inline HMPS_ABI {
 /// Rotation matrix of `angle` (rad, counter-clockwise) in the plane.
 template <class S>
 [[nodiscard]] Matrix<S, 2> rotation(S angle) {
+  static_assert(detail::RequireReal<S>::value);
   const S c = std::cos(angle);
   const S s = std::sin(angle);
   Matrix<S, 2> r;

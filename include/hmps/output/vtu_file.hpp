@@ -150,7 +150,7 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
 /// Points with fields as the bytes of a VTK file (.vtu, unstructured grid, version 1.0, appended raw data), which
 /// ParaView, VTK and meshio read. `positions` are in m, with three components. Throws `InputError` for fields of
 /// another size, without a name or with equal names, for triangles that name points that do not exist, for names that
-/// belong to no integer field or are too few for its values, and for a time that is not finite.
+/// belong to no integer field, are too few for its values or are given twice, and for a time that is not finite.
 [[nodiscard]] inline std::string vtu_text(const VtkField& positions, std::span<const VtkField> fields,
                                           const VtuSettings& settings = {}) {
   const std::size_t size = positions.size();
@@ -172,6 +172,8 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
       detail::shortest(settings.time) + "</DataArray>\n";
   for (const VtkNames& names : settings.names) {
     detail::require_names(names, fields);
+    detail::require(std::ranges::count(settings.names, names.field, &VtkNames::field) == 1, "hmps: the values of ",
+                    names.field, " are named twice in a VTU file, and ParaView shows only one of the lists; join them");
     arrays.head += detail::vtk_words(names);
   }
   arrays.head += "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(size) + "\" NumberOfCells=\"" +

@@ -83,6 +83,7 @@ class FittedField {
         box_{box.lower.template cast<double>(), box.upper.template cast<double>()},
         spacing_(spacing),
         least_layers_(least_layers) {
+    static_assert(RequireDistance<F, Vector<S, D>>::value);
     (void)lattice_sites<S, D>(box, static_cast<S>(spacing), box.lower);  // for its errors
     require((box.lower.array() < box.upper.array()).all(), "hmps: the box to fit particles in reaches from (",
             box.lower.transpose(), ") to (", box.upper.transpose(),
@@ -154,6 +155,8 @@ class FittedField {
   struct Found {
     std::vector<Sample<D>> samples;
     std::vector<SurfacePoint<D>> surface;
+    bool at_surface = false;  // whether the surface crosses the cell
+    bool is_distance = true;  // whether the shape changes there by about a metre per metre
   };
 
   /// Interleaves the bits of the indices of a cell: cells that are close in this order are close in space.

@@ -71,8 +71,13 @@ void FittedField<D>::sample_cell(const Point& centre, Found& found) const {
       if (cut.volume > 0) found.samples.push_back(cut);
     }
   }
+  const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
+  const double slope = (*most - *least) / ((parts - 1) * edge);
+  found.is_distance = slope > 0.1 && slope < 4 * std::sqrt(static_cast<double>(D));
   // A change of sign is not required, because a face may lie between two cells.
-  if (!inside || nearest > steepest * half_diagonal) return;
+  const bool is_close = nearest <= steepest * half_diagonal;
+  found.at_surface = inside && (is_close || *most > 0);
+  if (!inside || !is_close) return;
   if (const auto point = surface_at(at)) {
     found.surface.push_back(*point);
     find_other_side_of_gap(centre, distances, found);
@@ -150,6 +155,15 @@ void FittedField<D>::sample(const AnyExecutor& execute) {
     samples_.insert(samples_.end(), here->samples.begin(), here->samples.end());
     surface_.insert(surface_.end(), here->surface.begin(), here->surface.end());
   }
+  std::size_t at_surface = 0, odd = 0;
+  for (const auto& [code, here] : order) {
+    at_surface += here->at_surface;
+    odd += here->at_surface && !here->is_distance;
+  }
+  require(
+      4 * odd <= at_surface, "hmps: in ", odd, " of ", at_surface,
+      " cells at the surface, the shape to fit particles in changes by less than 0.1 or more than 4 m per metre; it "
+      "must be about the signed distance in metres: give redistanced(shape, box, spacing / 4)");
   require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower.transpose(), ") to (",
           box_.upper.transpose(), "); give a shape that is negative inside, and a box around it in metres");
 }

@@ -9,7 +9,7 @@ namespace hmps::inline HMPS_ABI {
 /// Settings of `fit_particles`.
 struct FitSettings {
   int least_layers = 2;           ///< least number of layers across a wall, from 1 to 8; thicker walls get more
-  double thinnest_spacing = 0.6;  ///< least distance of layers in spacings, above 0; thinner walls get no particles
+  double thinnest_spacing = 0.6;  ///< least distance of layers in spacings, from 0.05; thinner walls get no particles
   double longest_edge = 4;        ///< how far, in spacings, such walls may reach beyond the outermost particles
   int iterations = 200;           ///< of the repulsion, at least 1
   /// Particles with less than this share of the support in a full lattice are left out; 0 leaves out none.
@@ -21,12 +21,15 @@ namespace detail {
 inline void validate(const FitSettings& s) {
   require(s.least_layers >= 1 && s.least_layers <= 8, "hmps: the least number of layers to fit is ", s.least_layers,
           "; give a number from 1 to 8 (a wall needs 2 to bend)");
-  require(s.thinnest_spacing > 0 && s.thinnest_spacing <= 1, "hmps: the thinnest spacing of layers to fit is ",
-          s.thinnest_spacing, " spacings; give a share above 0 and up to 1 (0.6 is the default)");
-  require(s.longest_edge > 0 && s.longest_edge <= 100, "hmps: the longest edge without particles is ", s.longest_edge,
+  require(is_finite(s.thinnest_spacing) && s.thinnest_spacing >= 0.05 && s.thinnest_spacing <= 1,
+          "hmps: the thinnest spacing of layers to fit is ", s.thinnest_spacing,
+          " spacings; give a share from 0.05 to 1 (0.6 is the default), not metres");
+  require(is_finite(s.longest_edge) && s.longest_edge > 0 && s.longest_edge <= 100,
+          "hmps: the longest edge without particles is ", s.longest_edge,
           " spacings; give a positive number up to 100");
-  require(s.least_support >= 0 && s.least_support <= 0.5, "hmps: the least support of a particle to fit is ",
-          s.least_support, "; give a share of the support in a full lattice, from 0 to 0.5 (0.05 is the default)");
+  require(is_finite(s.least_support) && s.least_support >= 0 && s.least_support <= 0.5,
+          "hmps: the least support of a particle to fit is ", s.least_support,
+          "; give a share of the support in a full lattice, from 0 to 0.5 (0.05 is the default)");
   require(s.iterations >= 1, "hmps: the number of iterations to fit particles is ", s.iterations,
           "; make at least one");
 }

@@ -67,6 +67,7 @@ template <class S, int D>
 template <class F, class S, int D>
 class InsideShape {
  public:
+  static_assert(RequireDistance<F, Vector<S, D>>::value);
   InsideShape(const F& shape, const Box<S, D>& box, S spacing, const Vector<S, D>& origin)
       : shape_(shape),
         on_surface_(static_cast<S>(hair<S, D>(box, static_cast<double>(spacing), origin))),

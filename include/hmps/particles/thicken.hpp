@@ -111,8 +111,8 @@ class SiteMap {
 /// neighbours.
 ///
 /// Sites where `allowed(x)` does not hold stay free, for example in a gap to another organ. Returns the new positions;
-/// use `find_weak` to see which particles are still weak. Throws `InputError` for settings out of range and points that
-/// are not on one lattice of the spacing.
+/// use `find_weak` to see which particles are still weak. Throws `InputError` for settings out of range, a threshold
+/// that even a full lattice does not reach, and points that are not on one lattice of the spacing.
 template <class T, int D, class Allowed = AllowEverywhere>
 [[nodiscard]] std::vector<Vector<typename VectorView<T, D>::Scalar, D>> thicken(const VectorView<T, D>& points,
                                                                                 const SupportSettings& settings,
@@ -126,6 +126,11 @@ template <class T, int D, class Allowed = AllowEverywhere>
   detail::require(passes >= 0, "hmps: the number of passes of thicken is ", passes,
                   "; it must not be negative (4 is the default)");
   require_finite(points, "the position");
+  const double full = detail::full_support<D>(settings.radius_ratio);
+  detail::require(settings.threshold < full, "hmps: the support threshold is ", settings.threshold,
+                  ", but even a particle inside a full lattice has only ", full, " at an effective radius of ",
+                  settings.radius_ratio, " spacings, so that thicken would never end; give a lower threshold, such as ",
+                  0.2 * full);
   detail::require_spacing_of(points, settings.spacing, "thicken", 1.9);
   std::vector<Vector<S, D>> added;
   if (points.size() == 0) return added;

@@ -25,7 +25,10 @@ struct NeighbourList {
   std::vector<Index> neighbour;
 
   [[nodiscard]] std::size_t size() const { return offset.size() - 1; }
+  /// The neighbours of particle `i`. Throws `InputError` for a particle that does not exist.
   [[nodiscard]] std::span<const Index> operator[](std::size_t i) const {
+    detail::require(i < size(), "hmps: the neighbours of particle ", i, " are asked for, but the list has only ",
+                    size(), " particles; number them from 0");
     return std::span(neighbour).subspan(offset[i], offset[i + 1] - offset[i]);
   }
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,22 +33,36 @@ struct Combined {
 template <class Rule>
 Combined(Rule) -> Combined<Rule>;
 
-/// Polynomial smooth minimum: `min(a, b)` where they differ by more than `width`, at most `width / 4` below it where
-/// they are equal; continuously differentiable.
+/// The smaller or the larger of two distances, or NaN if one of them is: `std::min` and `std::max` drop a NaN in second
+/// place, so that a shape that does not exist would be missing without an error.
+template <class S>
+[[nodiscard]] S smaller(const S& a, const S& b) {
+  return is_nan(a) ? a : is_nan(b) ? b : std::min(a, b);
+}
+template <class S>
+[[nodiscard]] S larger(const S& a, const S& b) {
+  return is_nan(a) ? a : is_nan(b) ? b : std::max(a, b);
+}
+
+/// Polynomial smooth minimum: `smaller(a, b)` where they differ by more than `width`, at most `width / 4` below it
+/// where they are equal; continuously differentiable.
 template <class S>
 [[nodiscard]] S smooth_min(S a, S b, S width) {
-  if (!(width > S(0))) return std::min(a, b);
+  const S least = smaller(a, b);
+  if (is_nan(least) || !(width > S(0))) return least;
   const S overlap = std::max(width - std::abs(a - b), S(0)) / width;
-  return std::min(a, b) - overlap * overlap * width / S(4);
+  return least - overlap * overlap * width / S(4);
 }
 
 }  // namespace detail
 
-/// Union of shapes. Exact outside if the shapes are exact.
+/// Union of shapes. Exact outside if the shapes are exact. Here as in all combinations, the result is NaN where one of
+/// the shapes is.
 template <class A, class B, class... More>
 [[nodiscard]] auto unite(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
-    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return std::min(a(x), b(x)); }};
+    return detail::Combined{
+        [a = std::move(a), b = std::move(b)](const auto& x) { return detail::smaller(a(x), b(x)); }};
   else
     return unite(unite(std::move(a), std::move(b)), std::move(more)...);
 }
@@ -58,7 +73,7 @@ template <class A>
   detail::require(!shapes.empty(), "hmps: unite_all was given no shapes; give at least one");
   return detail::Combined{[shapes = std::move(shapes)](const auto& x) {
     auto least = shapes.front()(x);
-    for (std::size_t k = 1; k < shapes.size(); ++k) least = std::min(least, shapes[k](x));
+    for (std::size_t k = 1; k < shapes.size(); ++k) least = detail::smaller(least, shapes[k](x));
     return least;
   }};
 }
@@ -67,7 +82,7 @@ template <class A>
 template <class A, class B, class... More>
 [[nodiscard]] auto intersect(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
-    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return std::max(a(x), b(x)); }};
+    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return detail::larger(a(x), b(x)); }};
   else
     return intersect(intersect(std::move(a), std::move(b)), std::move(more)...);
 }
@@ -83,7 +98,8 @@ template <class A>
 template <class A, class B, class... More>
 [[nodiscard]] auto subtract(A a, B b, More... more) {
   if constexpr (sizeof...(More) == 0)
-    return detail::Combined{[a = std::move(a), b = std::move(b)](const auto& x) { return std::max(a(x), -b(x)); }};
+    return detail::Combined{
+        [a = std::move(a), b = std::move(b)](const auto& x) { return detail::larger(a(x), -b(x)); }};
   else
     return subtract(subtract(std::move(a), std::move(b)), std::move(more)...);
 }
@@ -113,7 +129,9 @@ template <class A, class S>
 /// thickness.
 template <class A, class S>
 [[nodiscard]] auto shell(A a, S thickness) {
-  return layer(std::move(a), -thickness / 2, thickness / 2);
+  using Length = std::conditional_t<std::is_integral_v<S>, double, S>;  // half of an integer need not be one
+  const auto half = static_cast<Length>(thickness) / 2;
+  return layer(std::move(a), -half, half);
 }
 
 /// Union with a fillet: adds material where the two distances differ by less than `radius`, at most radius / 4. Smooth,
@@ -167,7 +185,7 @@ template <class A, class S, int D>
 }
 
 /// The half of a shape where coordinate `axis` exceeds `at`, and its mirror image: describes left and right at once.
-/// `axis` is 0, 1 or, in three dimensions, 2; throws `InputError` for others.
+/// `axis` is 0, 1 or, in three dimensions, 2; throws `InputError` for others: for 2 in the plane when it is evaluated.
 template <class A, class S = double>
 [[nodiscard]] auto mirrored(A a, int axis, S at = S(0)) {
   detail::require(axis >= 0 && axis <= 2, "hmps: a shape is mirrored along the axis ", axis,
@@ -175,6 +193,8 @@ template <class A, class S = double>
   return detail::Combined{[a = std::move(a), axis, at](const auto& x) {
     using Scalar = typename std::decay_t<decltype(x)>::Scalar;
     auto folded = x;
+    detail::require(axis < x.size(), "hmps: a shape in ", x.size(), " dimensions is mirrored along the axis ", axis,
+                    "; give 0 or 1 for x or y");
     folded[axis] = static_cast<Scalar>(at) + std::abs(x[axis] - static_cast<Scalar>(at));
     return a(folded);
   }};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
@@ -14,7 +15,8 @@ namespace hmps::inline HMPS_ABI {
 /// A shape in `D` dimensions: `shape(x)` with `x` a `Vector<S, D>` in metres is negative inside, positive outside, and
 /// approximates the signed distance to the surface in metres. Models: the primitives and combinators of this folder,
 /// any lambda. Shapes are values that capture by value, so that a composed shape compiles to straight code.
-/// A primitive of a negative size is NaN everywhere; functions that sample shapes refuse NaN.
+/// A primitive of a negative size, or without the direction that it needs, is NaN everywhere; functions that sample
+/// shapes refuse NaN.
 ///
 /// *Exact* shapes return the Euclidean distance everywhere. *First-order* shapes return f / |grad f| of an implicit
 /// function f: the zero surface is exact, the distance near it is correct to first order, and far away only the sign is
@@ -26,6 +28,15 @@ concept Shape = requires(const F& shape, const Vector<S, D>& x) {
 };
 
 namespace detail {
+/// Fails to compile for a shape `F` that returns a truth value at a position `V`: as a number it is never negative, so
+/// that the shape would be empty.
+template <class F, class V>
+struct RequireDistance {
+  static_assert(!std::same_as<std::remove_cvref_t<std::invoke_result_t<const F&, const V&>>, bool>,
+                "hmps: a shape returns its signed distance in m, negative inside, not whether a point is inside; write "
+                "`return is_inside ? -1.0 : 1.0` if only the sign matters");
+  static constexpr bool value = true;
+};
 /// `distance`, or NaN for a shape that does not exist because its size is negative. Functions that sample shapes refuse
 /// NaN.
 template <class S>
@@ -83,7 +94,10 @@ template <class S, int D>
 struct HalfSpace {
   Vector<S, D> point = Vector<S, D>::Zero();  ///< m
   Vector<S, D> outward;                       ///< not zero
-  [[nodiscard]] S operator()(const Vector<S, D>& x) const { return outward.dot(x - point) / outward.norm(); }
+  [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    const S length = outward.norm();
+    return detail::distance_if(length > S(0), outward.dot(x - point) / length);
+  }
 };
 
 /// All points within `radius` of a segment. Exact.
@@ -139,8 +153,9 @@ struct Cylinder {
     const S axial = arm.dot(along) / length;
     const S side = (arm - axial / length * along).norm() - radius;
     const S end = std::max(-axial, axial - length);
-    return detail::distance_if(radius >= S(0), Vector<S, 2>(std::max(side, S(0)), std::max(end, S(0))).norm() +
-                                                   std::min(std::max(side, end), S(0)));
+    return detail::distance_if(
+        radius >= S(0) && length > S(0),
+        Vector<S, 2>(std::max(side, S(0)), std::max(end, S(0))).norm() + std::min(std::max(side, end), S(0)));
   }
 };
 

@@ -28,6 +28,7 @@ template <class F, class S>
 class IsosurfaceMaker {
  public:
   using Point = Vector<S, 3>;
+  static_assert(RequireDistance<F, Point>::value);
 
   IsosurfaceMaker(const F& shape, const Box<S, 3>& box, S cell) : shape_(shape), box_(box), cell_(cell) {
     require(all_finite(box.lower) && all_finite(box.upper) && (box.lower.array() < box.upper.array()).all(),

@@ -19,9 +19,10 @@ namespace hmps::inline HMPS_ABI {
 
 /// Signed distance, to first order, of the point (u, v) to the superellipse
 /// |u / a|^n + |v / b|^n = 1 with half axes a, b > 0 (m) and exponent n >= 1: 1 is a rhombus, 2 an
-/// ellipse, large n a rectangle.
+/// ellipse, large n a rectangle. NaN for other axes and exponents, which functions that sample shapes refuse.
 template <class S>
 [[nodiscard]] S superellipse(S u, S v, S a, S b, S n) {
+  if (!(a > S(0) && b > S(0) && n >= S(1))) return detail::distance_if(false, S(0));
   const S p = std::abs(u) / a;
   const S q = std::abs(v) / b;
   const S level = n == S(2) ? std::sqrt(p * p + q * q)

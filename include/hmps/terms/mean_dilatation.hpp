@@ -87,6 +87,7 @@ struct SplitBulkModulus {
 /// below 2/3 of the shear modulus, with which Poisson's ratio would be negative, as when the two are interchanged.
 template <class P>
 [[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
+  static_assert(detail::RequireReal<P>::value);
   detail::require(detail::is_finite(bulk_modulus) && bulk_modulus > 0, "hmps: the bulk modulus to be split is ",
                   bulk_modulus, " Pa; it must be positive");
   detail::require(detail::is_finite(shear_modulus) && shear_modulus > 0,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -24,6 +25,7 @@ namespace hmps::inline HMPS_ABI {
 /// @return E_hat in Pa
 template <class T>
 [[nodiscard]] constexpr T shear_wave_modulus(const T& shear_modulus) {
+  static_assert(detail::RequireReal<T>::value);
   return shear_modulus * T(4.0 / 3.0);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
@@ -24,8 +26,11 @@ struct SheetStabiliser {
 ///
 /// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
 /// Throws `InputError` for moduli that are not positive and for fewer than two layers.
-template <class P>
-[[nodiscard]] SheetStabiliser<P> sheet_stabiliser(int layers, P bulk_modulus, P shear_modulus) {
+template <class P, class Layers>
+[[nodiscard]] SheetStabiliser<P> sheet_stabiliser(Layers layers, P bulk_modulus, P shear_modulus) {
+  static_assert(std::is_integral_v<Layers>,
+                "hmps: the layers of a sheet are counted; round the thickness over the spacing, for example with "
+                "std::lround: a conversion to int cuts 3.9999 to 3");
   detail::require(layers >= 2, "hmps: a sheet of ", layers,
                   " particles has no stabiliser; it takes at least two layers to bend");
   const SplitBulkModulus<P> shared = split_bulk_modulus(bulk_modulus, shear_modulus);

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/step.hpp"
 #include "hmps/core/view.hpp"
@@ -66,12 +71,40 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, cons
   });
 }
 
+namespace detail {
+/// Throws `InputError` unless the carries of 64 particles, spread over all, are small compared with the positions and
+/// their change, as rounding errors are. Leaves positions and velocities that are not finite to `check_state`.
+template <class T, class U, int D>
+void require_carry(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorView<T, D>& carry, double dt) {
+  constexpr std::size_t most_samples = 64;
+  const std::size_t n = x.size(), samples = std::min(n, most_samples);
+  double reach = 0, largest = 0;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < samples; ++k)
+    for (int c = 0; c < D; ++c) {
+      const std::size_t i = k * n / samples;
+      const double length = std::abs(static_cast<double>(x(i, c))) + std::abs(static_cast<double>(v(i, c))) * dt;
+      const double kept = std::abs(static_cast<double>(carry(i, c)));
+      if (!is_finite(length)) return;
+      reach = std::max(reach, length);
+      if (is_finite(largest) && (!is_finite(kept) || kept > largest)) largest = kept, worst = i;
+    }
+  // Far above rounding, so that positions may be moved closer to the origin during a run.
+  const double most = std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon())) * reach;
+  require(
+      is_finite(largest) && largest <= most, "hmps: the carry of particle ", worst, " is ", largest,
+      " m, but a carry is what rounding has dropped from a position; set carries to zero at the start, and keep them "
+      "from step to step");
+}
+}  // namespace detail
+
 /// `drift` with compensated summation (Kahan): `carry` stores what rounding dropped, for the next step. The error of x
 /// thus stays at about one rounding of x, plus one rounding of the distance travelled, after any number of steps.
 ///
 /// @param carry  in m, the excess of x over the exact sum; zero at the start, kept by the caller from step to step, and
 ///               part of a checkpoint
-/// A translation unit compiled with -ffast-math loses the compensation.
+/// A translation unit compiled with -ffast-math loses the compensation. Throws `InputError` as `drift` above does, and
+/// for carries that are no rounding errors, such as those of an array that nothing has set to zero.
 template <class T, class U, int D, Executor E = Serial>
 void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorView<T, D>& carry, double dt,
            const E& execute = {}) {
@@ -83,6 +116,7 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorVie
   require_apart(carry, "carries", v, "velocities");
   require_size(carry, x.size(), "carries");
   detail::require_step(dt);
+  detail::require_carry(x, v, carry, dt);
   execute(x.size(), [&](std::size_t i) {
     for (int c = 0; c < D; ++c) {
       const T old = x(i, c);

@@ -285,6 +285,7 @@ def main(program):
         for option in ("--spacing", "--young", "--young-hat", "--d1", "--density", "--viscosity", "--friction",
                        "--penalty-ratio", "--time-step"):
             refused(program, folder, header + cube, option, option, "0x1")  # one, to CLI11
+        refused(program, folder, header + cube, "would replace", "--out", folder / "bad.csv")
         # Forces that did not arrive, because the disk is full or the stream closed, are an error.
         command = f"{shlex.quote(program)} --spacing {SPACING} --in {shlex.quote(str(folder / 'bad.csv'))}"
         for stream in (">/dev/full", ">&-"):

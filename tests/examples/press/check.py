@@ -44,6 +44,8 @@ def check_arguments(program):
             found = subprocess.run([program, *arguments], cwd=name, capture_output=True, text=True)
             check(found.returncode == 1 and f"press: {word} is '{arguments[-1]}'" in found.stderr, found.stderr)
             check(not list(pathlib.Path(name).iterdir()), "a program that was refused has written something")
+    found = subprocess.run([program, "400", "organ.stl", "1e-3", "more"], capture_output=True, text=True)
+    check(found.returncode == 1 and "press: 'more' is one argument too many" in found.stderr, found.stderr)
 
 
 def main(program):

@@ -377,6 +377,8 @@ TEST(Relax, BadInputIsRefused) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(call({.spacing = 0, .load = 1}), InputError);
+  ForceFunction<double, 2> empty;
+  EXPECT_THROW((void)relax(empty, body.x(), body.v(), body.f(), density, {.spacing = l0, .load = 1}), InputError);
   EXPECT_THROW(call({.spacing = l0, .tolerance = 0, .load = 1}), InputError);
   EXPECT_THROW(call({.spacing = l0, .load = -1}), InputError);
   EXPECT_THROW(call({.spacing = l0, .load = nan}), InputError);

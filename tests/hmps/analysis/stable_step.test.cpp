@@ -342,4 +342,12 @@ TEST(StableStep, BadInputIsRefused) {
   }
 }
 
+TEST(StableStep, RefusesAnEmptyFunction) {
+  const std::vector<Vector<double, 2>> x{{0, 0}, {1e-3, 0}}, v(2, Vector<double, 2>::Zero());
+  ForceFunction<double, 2> force;
+  EXPECT_THROW((void)stable_step(force, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}), InputError);
+  force = [](const auto&, const auto&, const auto&) {};
+  EXPECT_NO_THROW((void)stable_step(force, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}));
+}
+
 }  // namespace stable_step_test

@@ -143,6 +143,15 @@ TEST(StepCausesMisuse, IsRefused) {
   };
   StableStep found = stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3});
   EXPECT_NEAR(found.limit, 2 / std::sqrt(1e3), 1e-6);
+  ForceFunction<double, 3> empty;
+  const NamedForce whole{"whole", spring};
+  EXPECT_EQ(step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, whole).size(), 1u);
+  EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, whole, whole), InputError)
+      << "the force twice";
+  EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1.0, {.spacing = 1e-3}, whole), InputError)
+      << "another density";
+  const NamedForce missing{"missing", empty};
+  EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, missing), InputError);
   // Trial displacements that vanish in the rounding of the positions.
   EXPECT_THROW((void)stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-12}), InputError);
   found.mode.assign(6, 0.0);

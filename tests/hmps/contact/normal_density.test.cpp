@@ -122,4 +122,19 @@ TEST(NormalDensity, RefusesAKernelThatFormsNoWall) {
   EXPECT_THROW((void)(hmps::NormalDensity<double, 3, NoKernel>(1e-3)), hmps::InputError);
 }
 
+template <int Kind>
+struct WrongSlope : SmoothMetaball {
+  template <class S>
+  [[nodiscard]] static S slope(S s) {
+    const S own = SmoothMetaball::slope(s);
+    return Kind == 0 ? -own : own * S(2) * std::sqrt(s);  // with the wrong sign, or dc/dr
+  }
+};
+
+TEST(NormalDensity, RefusesAKernelWhoseSlopeIsNotThatOfItsValue) {
+  EXPECT_NO_THROW((void)(hmps::NormalDensity<double, 3, SmoothMetaball>(1e-3)));
+  EXPECT_THROW((void)(hmps::NormalDensity<double, 3, WrongSlope<0>>(1e-3)), hmps::InputError);
+  EXPECT_THROW((void)(hmps::NormalDensity<float, 2, WrongSlope<1>>(1e-3F)), hmps::InputError);
+}
+
 }  // namespace normal_density_test

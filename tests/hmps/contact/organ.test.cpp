@@ -26,4 +26,11 @@ TEST(ExcludeAttached, RefusesBadInput) {
   EXPECT_THROW((void)hmps::exclude_attached(view, good, bad, 1.), hmps::InputError);
 }
 
+TEST(ExcludeAttached, RefusesADistanceInMillimetres) {
+  const std::vector<hmps::Vector<double, 2>> reference{{0, 0}, {0.01, 0}, {0.02, 0}, {0, 0.001}};
+  const std::vector<hmps::Index> slaves{0, 1, 2}, bonded{3};
+  EXPECT_EQ(hmps::exclude_attached(hmps::vectors(reference), slaves, bonded, 0.003).size(), 1u);
+  EXPECT_THROW((void)hmps::exclude_attached(hmps::vectors(reference), slaves, bonded, 3.0), hmps::InputError);
+}
+
 }  // namespace organ_test

@@ -136,4 +136,12 @@ TEST(SurfaceCorrection, RefusesAShapeThatIsInsideOut) {
                hmps::InputError);
 }
 
+TEST(SurfaceCorrection, RefusesASpacingThatIsNotThatOfTheSkin) {
+  const Lattice<double, 3> body;
+  for (const double factor : {1e-3, 0.5, 2.0, 1e3})
+    EXPECT_THROW((hmps::SurfaceCorrection<double, 3>(hmps::vectors(body.x), body.skin, body.ball, factor * body.l0)),
+                 hmps::InputError)
+        << factor;
+}
+
 }  // namespace surface_correction_test

@@ -55,4 +55,20 @@ TEST(ViewChecks, RefuseTwoViewsOfOneArray) {
   EXPECT_THROW(hmps::require_apart(x, "positions", VectorView<const double, 3>(x), "velocities"), hmps::InputError);
 }
 
+TEST(ViewChecks, RefuseToWriteSeveralComponentsToOnePlace) {
+  std::vector<double> a(24), b(6);
+  const auto at = [&](std::size_t k) { return a.data() + k; };
+  EXPECT_TRUE(has(error_of(VectorView<double, 3>({at(0), b.data(), b.data()}, 6, 8)), "components lie in one place"))
+      << "one array for two components";
+  EXPECT_TRUE(has(error_of(VectorView<double, 3>({at(0), at(1), at(2)}, 6, 8)), "components lie in one place"))
+      << "the stride of one number for vectors";
+  EXPECT_TRUE(has(error_of(VectorView<double, 2>({at(4), at(4)}, 1, 0)), "components lie in one place"));
+  EXPECT_TRUE(has(error_of(VectorView<double, 2>({at(20), at(18)}, 2, -16)), "components lie in one place"));
+  EXPECT_EQ(error_of(VectorView<const double, 3>({at(0), b.data(), b.data()}, 6, 8)), "nothing was thrown")
+      << "zeros may be shared";
+  EXPECT_EQ(error_of(VectorView<double, 3>({at(0), at(1), at(2)}, 6, 24)), "nothing was thrown");
+  EXPECT_EQ(error_of(VectorView<double, 3>({at(0), at(6), at(12)}, 6, 8)), "nothing was thrown");
+  EXPECT_EQ(error_of(VectorView<double, 2>({at(5), at(11)}, 6, -8)), "nothing was thrown");
+}
+
 }  // namespace view_checks_test

@@ -31,4 +31,14 @@ TEST(ViewTypes, FindComponentsByBaseAndStride) {
   EXPECT_EQ(memory[13], -1);
 }
 
+TEST(ViewTypes, RefuseAPartBeyondTheirEnd) {
+  std::vector<double> memory(10);
+  const VectorView<double, 2> view({&memory[0], &memory[1]}, 5, 16);
+  EXPECT_EQ(view.part(5, 0).size(), 0u);
+  EXPECT_EQ(view.part(2, 3).size(), 3u);
+  EXPECT_THROW((void)view.part(2, 4), hmps::InputError) << "an end in place of a number";
+  EXPECT_THROW((void)view.part(6, 0), hmps::InputError);
+  EXPECT_THROW((void)view.part(1, static_cast<std::size_t>(-1)), hmps::InputError);
+}
+
 }  // namespace view_types_test

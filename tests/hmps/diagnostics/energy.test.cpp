@@ -178,4 +178,40 @@ TEST(Energy, RefusesALawOrAModulusThatIsNone) {
   }
 }
 
+TEST(Energy, RefusesAModulusThatIsNoneInTheLawOfAParticle) {
+  const std::vector<Matrix<double, 3>> F(4, Matrix<double, 3>::Identity());
+  std::vector<double> shear(4, 1e3);
+  const auto energy = [&] {
+    return strain_energy(
+        matrices(F),
+        [&](const auto& at) {
+          return NeoHookean{at(scalars(shear)), 1e5};
+        },
+        1e-9);
+  };
+  EXPECT_EQ(energy(), 0);
+  for (const double bad : {-1e3, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    shear[2] = bad;
+    EXPECT_THROW((void)energy(), InputError) << bad;
+  }
+}
+
+// Bonds that know the volumes of their particles make another force, whose energy needs the same volumes.
+TEST(Energy, RefusesVolumesOtherThanThoseOfTheBonds) {
+  std::vector<Vector<double, 3>> x;
+  for (int i = 0; i < 27; ++i) x.emplace_back(spacing * Vector<double, 3>(i % 3, i / 3 % 3, i / 9));
+  const std::vector<Matrix<double, 3>> F(x.size(), Matrix<double, 3>::Identity());
+  const double cell = spacing * spacing * spacing;
+  std::vector<double> volumes(x.size(), cell), unlike(x.size(), cell);
+  for (std::size_t i = 0; i < x.size(); i += 2) unlike[i] *= 1.5;
+  const BondList<double, 3> alike(vectors(x), {.spacing = spacing}, scalars(volumes));
+  const BondList<double, 3> bonds(vectors(x), {.spacing = spacing}, scalars(unlike));
+  EXPECT_NO_THROW((void)artificial_energy(alike, vectors(x), matrices(F), 1e3, cell));
+  EXPECT_NO_THROW((void)artificial_energy(bonds, vectors(x), matrices(F), 1e3, scalars(unlike)));
+  EXPECT_NO_THROW((void)mean_dilatation_energy(bonds, matrices(F), 1e3, scalars(unlike)));
+  EXPECT_THROW((void)artificial_energy(bonds, vectors(x), matrices(F), 1e3, cell), InputError);
+  EXPECT_THROW((void)artificial_energy(bonds, vectors(x), matrices(F), 1e3, scalars(volumes)), InputError);
+  EXPECT_THROW((void)mean_dilatation_energy(bonds, matrices(F), 1e3, cell), InputError);
+}
+
 }  // namespace energy_test

@@ -65,6 +65,7 @@ TEST(Jacobian, StatisticsOfNobodyAreRefused) {
 TEST(JacobianStatisticsMisuse, IsRefused) {
   const std::vector<Matrix<double, 3>> F(4, Matrix<double, 3>::Identity());
   EXPECT_THROW((void)jacobian_statistics(matrices(F), {.low = 1.02, .high = 0.98}), InputError);
+  EXPECT_THROW((void)jacobian_statistics(matrices(F), {.low = 98, .high = 102}), InputError) << "per cent";
   const ParticleSet other(3, [](std::size_t) { return true; });
   EXPECT_THROW((void)jacobian_statistics(matrices(F), {}, other), InputError);
   const MatrixView<const double, 3> nowhere(View<const double, 9>({}, 4, 72));

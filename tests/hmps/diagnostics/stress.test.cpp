@@ -111,4 +111,20 @@ TEST(Stress, ABrokenParticleIsNamed) {
   EXPECT_THROW(cauchy_stresses(matrices(F), law, matrices(F)), InputError);
 }
 
+TEST(Stress, NamesTheParticleWhoseLawHasAModulusThatIsNone) {
+  const std::vector<Tensor> F(3, Tensor::Identity());
+  std::vector<double> shear{mu, -mu, mu}, mises(3);
+  const auto stress = [&] {
+    von_mises_stresses(
+        matrices(F),
+        [&](const auto& at) {
+          return NeoHookean{at(scalars(shear)), kappa};
+        },
+        scalars(mises));
+  };
+  EXPECT_NE(hmps_test::message_of(stress).find("the law of particle 1"), std::string::npos);
+  shear[1] = mu;
+  EXPECT_NO_THROW(stress());
+}
+
 }  // namespace stress_test

@@ -112,6 +112,8 @@ TEST(ForceEnergy, OfUnlikeVolumesIsWhatTheForceTimesTheVolumeIsMinusTheGradientO
   };
   const auto law = hmps::MooneyRivlin<double>{1700, 1500, 1e4};
   expect(hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4), hmps::mean_dilatation(1e6)));
+  EXPECT_THROW((void)hmps::internal_force(bonds, hmps::elastic(law)).energy(x, s.volume), hmps::InputError)
+      << "one volume for particles of different ones";
   expect(hmps::internal_force(bonds, hmps::mean_dilatation<2>(1e6), Both{{1e9}, {1e8}}));
   struct Unweighted {
     static double tension(const hmps::BondState<hmps::Lanes<double>, 2>&) { return 1; }

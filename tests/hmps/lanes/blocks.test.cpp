@@ -130,4 +130,13 @@ TYPED_TEST(BlocksOf, KeepTheShapeTensor) {
   EXPECT_NEAR(blocks.inverse_trace_lanes(0).lane[0], K(1) / K(1.5625), 4 * std::numeric_limits<K>::epsilon());
 }
 
+TYPED_TEST(BlocksOf, RefuseAParticleThatDoesNotExist) {
+  const Ordered<TypeParam> blocks({{0, 0}, {1, 0}}, {1, 0});
+  EXPECT_EQ(blocks.slot(1), 0u);
+  EXPECT_THROW((void)blocks.slot(2), hmps::InputError) << "beyond the last particle, though there is such a slot";
+  EXPECT_THROW((void)blocks.reference(2), hmps::InputError);
+  EXPECT_THROW((void)blocks.shape_inverse(2), hmps::InputError);
+  EXPECT_THROW((void)blocks.shape_trace(2), hmps::InputError);
+}
+
 }  // namespace blocks_test

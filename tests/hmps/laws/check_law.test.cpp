@@ -84,4 +84,10 @@ TEST(CheckLaw, RejectsWhatIsNotFiniteAndSettingsOutOfRange) {
     EXPECT_NE(error_of<3>({}, {.strain = strain}).find("must be above 0"), std::string::npos) << strain;
 }
 
+// Five for five per cent would pass every law.
+TEST(CheckLaw, RejectsATolerancePerCent) {
+  for (const double tolerance : {5.0, 0.2, 0.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_NE(error_of<3>({}, {.tolerance = tolerance}).find("at most 0.1"), std::string::npos) << tolerance;
+}
+
 }  // namespace check_law_test

@@ -102,4 +102,18 @@ TEST(Csv, RefusesAHeaderOfNumbersAndATimeAsItsOwnValue) {
   EXPECT_NO_THROW((void)hmps::track(table, "x"));
 }
 
+TEST(Csv, RefusesCellsThatDoNotExist) {
+  const auto table = hmps::parse_csv("t,x\n0,1\n1,3\n");
+  EXPECT_EQ(table(1, 1), 3);
+  expect_contains(message_of([&] { (void)table(2, 0); }), "it has 2 rows and 2 columns");
+  EXPECT_THROW((void)table(1, 2), hmps::InputError) << "the column counted from 1";
+}
+
+TEST(Csv, RefusesOtherLineEndsAndEncodings) {
+  expect_contains(message_of([] { (void)hmps::parse_csv("t,x\r0,1\r1,3\r"); }), "CR alone");
+  EXPECT_EQ(hmps::parse_csv("t,x\r").rows(), 0u);
+  EXPECT_EQ(hmps::parse_csv("t,x\r\n0,1\r\n").rows(), 1u);
+  expect_contains(message_of([] { (void)hmps::parse_csv(std::string("\xFF\xFEt\0,\0x\0\n\0", 10)); }), "UTF-16");
+}
+
 }  // namespace csv_test

@@ -143,6 +143,8 @@ TEST(VtuFileMisuse, IsRefused) {
   const std::vector<VtkField> fields{vtk_field("organ", scalars(organ))};
   EXPECT_THROW(write_vtu(path, vectors(x), fields, {.names = {{"organ", {"tongue", "palate"}}}}), InputError);
   EXPECT_NO_THROW(write_vtu(folder.path() / "named.vtu", vectors(x), fields, {.names = {{"organ", {"a", "b", "c"}}}}));
+  const VtuSettings twice{.names = {{"organ", {"a", "b", "c"}}, {"organ", {"d", "e", "f"}}}};
+  EXPECT_THROW(write_vtu(path, vectors(x), fields, twice), InputError);
   VtuSeries frames(folder.path() / "run.pvd");
   frames.add(1, vectors(x));
   EXPECT_THROW(frames.add(1, vectors(x)), InputError);

@@ -160,4 +160,11 @@ TEST(CarriedSurface, RefusesToWriteWhatItReads) {
   EXPECT_EQ(x, ball.reference);
 }
 
+TEST(CarriedSurface, RefusesAPointThatDoesNotExist) {
+  Ball ball;
+  const CarriedSurface carried(vectors(ball.reference), vectors(ball.vertices), l0);
+  EXPECT_FALSE(carried.shares(carried.size() - 1).empty());
+  EXPECT_THROW((void)carried.shares(carried.size()), InputError);
+}
+
 }  // namespace carried_surface_test

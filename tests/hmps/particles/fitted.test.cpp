@@ -386,11 +386,18 @@ TEST(FitParticles, RefusesWhatCannotBeFitted) {
   EXPECT_TRUE(
       starts(message_of([&] { (void)fit_particles([&](const V3& x) { return x[0] > 1 ? nan : ball(x); }, box, 1.0); }),
              "hmps: the shape is NaN at ("));
+  for (const double factor : {1e-3, 1e3})
+    EXPECT_NE(message_of([&] {
+                (void)fit_particles([&](const V3& x) { return factor * ball(x); }, box, 1.0);
+              }).find("must be about the signed distance"),
+              std::string::npos)
+        << factor;
   for (const hmps::FitSettings& bad :
        {hmps::FitSettings{.least_layers = 0}, hmps::FitSettings{.least_layers = 9},
-        hmps::FitSettings{.thinnest_spacing = 0}, hmps::FitSettings{.thinnest_spacing = 1.1},
-        hmps::FitSettings{.longest_edge = 0}, hmps::FitSettings{.iterations = 0},
-        hmps::FitSettings{.least_support = -0.1}, hmps::FitSettings{.least_support = nan}})
+        hmps::FitSettings{.thinnest_spacing = 0}, hmps::FitSettings{.thinnest_spacing = 0.6e-3},
+        hmps::FitSettings{.thinnest_spacing = 1.1}, hmps::FitSettings{.longest_edge = 0},
+        hmps::FitSettings{.iterations = 0}, hmps::FitSettings{.least_support = -0.1},
+        hmps::FitSettings{.least_support = nan}})
     EXPECT_NE(message_of([&] { (void)fit_particles(ball, box, 1.0, bad); }), "none");
 
   // A plate of one spacing holds one layer, not the two of the default. A thin fin is found on a thick body too.

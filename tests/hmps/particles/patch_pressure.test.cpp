@@ -107,6 +107,10 @@ TEST(PatchPressure, ParticlesNearAPatchAreThoseOfItsLayer) {
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0.4 * l0), InputError);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 0), InputError);
   EXPECT_THROW((void)particles_near(vectors(body.x), base, 2.0), InputError) << "millimetres";
+  // In millimetres too, the patch passes close to the particles around the origin.
+  auto in_millimetres = base;
+  for (V& vertex : in_millimetres.vertices) vertex *= 1e3;
+  EXPECT_THROW((void)particles_near(vectors(body.x), in_millimetres, 0.99 * l0), InputError);
 }
 
 TEST(PatchPressure, RefusesWhatDoesNotFit) {

@@ -75,4 +75,14 @@ TYPED_TEST(Thicken, RefusesCloudsThatAreNoLattice) {
   EXPECT_NO_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1}));
 }
 
+// Every particle would stay weak, and the body would grow in each pass.
+TEST(ThickenMisuse, RefusesAThresholdThatNoParticleReaches) {
+  using V = Vector<double, 3>;
+  const auto points = hmps::fill_lattice(Box<double, 3>{V(0, 0, 0), V(4, 4, 4)}, 1.0);
+  EXPECT_NO_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1, .threshold = 3.4}));
+  EXPECT_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1, .threshold = 3.6}), hmps::InputError);
+  EXPECT_THROW((void)hmps::thicken(hmps::vectors(points), {.spacing = 1, .radius_ratio = 1.2}), hmps::InputError)
+      << "the threshold is that of another radius";
+}
+
 }  // namespace thicken_test

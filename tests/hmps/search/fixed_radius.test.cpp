@@ -187,4 +187,11 @@ TEST(FindNeighbours, RefusesARadiusInAnotherUnit) {
   EXPECT_EQ(hmps::find_neighbours(hmps::vectors(points), 1.5e-3).neighbour.size(), 2 * 19999U);
 }
 
+TEST(NeighbourList, RefusesAParticleThatDoesNotExist) {
+  const std::vector<hmps::Vector<double, 2>> points{{0, 0}, {1, 0}};
+  const auto list = hmps::find_neighbours(hmps::vectors(points), 1.5);
+  EXPECT_EQ(list[1].size(), 1u);
+  EXPECT_THROW((void)list[2], hmps::InputError);
+}
+
 }  // namespace fixed_radius_test

@@ -152,6 +152,32 @@ TEST(CombineMisuse, IsRefused) {
   for (const double beyond : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW((void)hmps::translated(ball, V(beyond, 0, 0)), hmps::InputError);
   for (const int axis : {-1, 3}) EXPECT_THROW((void)hmps::mirrored(ball, axis), hmps::InputError);
+  const auto in_the_plane = hmps::mirrored(hmps::Ball<double, 2>{.radius = 1}, 2);
+  EXPECT_THROW((void)in_the_plane(Vector<double, 2>(0, 0)), hmps::InputError);
+}
+
+// `std::min` drops a NaN in second place.
+TEST(Combinations, KeepAShapeThatDoesNotExist) {
+  using V = Vector<double, 3>;
+  const hmps::Ball<double, 3> ball{V(0, 0, 0), 1}, none{V(0, 0, 0), -1};
+  const auto is_nan = [](const auto& shape) { return std::isnan(shape(V(0.5, 0, 0))); };
+  EXPECT_FALSE(is_nan(hmps::unite(ball, ball)));
+  EXPECT_TRUE(is_nan(hmps::unite(ball, none)));
+  EXPECT_TRUE(is_nan(hmps::unite(none, ball)));
+  EXPECT_TRUE(is_nan(hmps::unite(ball, none, ball)));
+  EXPECT_TRUE(is_nan(hmps::unite_all(std::vector{ball, none, ball})));
+  EXPECT_TRUE(is_nan(hmps::intersect(ball, none)));
+  EXPECT_TRUE(is_nan(hmps::subtract(ball, none)));
+  for (const double radius : {0.0, 0.1}) {
+    EXPECT_TRUE(is_nan(hmps::smooth_unite(ball, none, radius)));
+    EXPECT_TRUE(is_nan(hmps::smooth_subtract(ball, none, radius)));
+  }
+}
+
+TEST(Combinations, ShellOfAnIntegerThicknessIsThatThick) {
+  const auto wall = hmps::shell(hmps::Ball<double, 3>{.radius = 4}, 1);
+  EXPECT_NEAR(wall(Vector<double, 3>(4.25, 0, 0)), -0.25, 1e-12);
+  EXPECT_NEAR(wall(Vector<double, 3>(5, 0, 0)), 0.5, 1e-12);
 }
 
 }  // namespace combine_test

@@ -163,6 +163,8 @@ TEST(Shapes, OfNegativeSizeAreNaN) {
     EXPECT_TRUE(std::isnan((hmps::Capsule<double, 3>{origin, one, -1}(x))));
     EXPECT_TRUE(std::isnan((hmps::RoundCone<double, 3>{origin, one, 1, -1}(x))));
     EXPECT_TRUE(std::isnan((hmps::Cylinder<double, 3>{origin, one, -1}(x))));
+    EXPECT_TRUE(std::isnan((hmps::Cylinder<double, 3>{one, one, 1}(x)))) << "without a direction";
+    EXPECT_TRUE(std::isnan((hmps::HalfSpace<double, 3>{origin, origin}(x)))) << "without a direction";
     EXPECT_TRUE(std::isnan((hmps::Torus<double>{origin, 1, -1}(x))));
     EXPECT_TRUE(std::isnan((hmps::Ellipsoid<double, 3>{origin, V(1, 1, -1)}(x))));
   }

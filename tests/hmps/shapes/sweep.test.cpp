@@ -114,4 +114,11 @@ TYPED_TEST(Sweep, RefusesRowsThatMakeNoShape) {
   EXPECT_THROW(hmps::Plate<S>({row, {V(0, 0, 1), S(1), S(1), S(0)}}, V(0, 0, 0)), hmps::InputError);
 }
 
+TEST(Superellipse, IsNotANumberWithoutPositiveAxesAndAnExponentOfOne) {
+  EXPECT_FALSE(std::isnan(hmps::superellipse(1.0, 0.0, 4.0, 2.0, 1.0)));
+  EXPECT_TRUE(std::isnan(hmps::superellipse(1.0, 0.0, -4.0, 2.0, 2.0)));
+  EXPECT_TRUE(std::isnan(hmps::superellipse(1.0, 0.0, 4.0, 0.0, 2.0)));
+  EXPECT_TRUE(std::isnan(hmps::superellipse(1.0, 0.0, 4.0, 2.0, 0.5)));
+}
+
 }  // namespace sweep_test

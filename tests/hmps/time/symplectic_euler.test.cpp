@@ -153,4 +153,17 @@ TEST(SymplecticEuler, BadInputIsRefused) {
   EXPECT_THROW(drift(vectors(x), vectors(v), vectors(few), 1e-5), InputError);
 }
 
+TEST(Drift, RefusesCarriesThatAreNoRoundingErrors) {
+  std::vector<hmps::Vector<float, 2>> x(100, {0.1F, -0.2F}), v(100, {1, 0}), carry(100, {0, 0});
+  const auto drift = [&] { hmps::drift(hmps::vectors(x), hmps::vectors(v), hmps::vectors(carry), 1e-3); };
+  for (int step = 0; step < 3; ++step) EXPECT_NO_THROW(drift());
+  for (const float bad : {1.0F, 1e-3F, std::numeric_limits<float>::quiet_NaN()}) {
+    for (auto& own : carry) own[1] = bad;
+    EXPECT_THROW(drift(), hmps::InputError) << bad;
+  }
+  // A run that has become unstable is for `check_state` to report.
+  x[0][0] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NO_THROW(drift());
+}
+
 }  // namespace symplectic_euler_test

@@ -55,8 +55,8 @@ class OrganPairs {
     double radius;  // r_0 in m of a slave
   };
 
-  /// Returns the number of the organ. Throws `InputError` if it is empty, and for a slave whose radius is not positive
-  /// or exceeds three quarters of `spacing` (m).
+  /// Returns the number of the organ. Throws `InputError` if it is empty, and for a slave whose radius is below a
+  /// fiftieth or above three quarters of `spacing` (m).
   std::size_t add_organ(const Organ& organ, double spacing);
   /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
@@ -148,11 +148,12 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
 }
 
 inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double spacing) {
-  constexpr double most = 0.75;  // half of the widest layers that `fit_particles` makes
+  constexpr double most = 0.75;   // half of the widest layers that `fit_particles` makes
+  constexpr double least = 0.02;  // below half of its closest
   const double radius = organ.radius(slave);
-  require(is_finite(radius) && radius > 0 && radius <= most * spacing, "hmps: slave ", slave, " of organ '", organ.name,
-          "' has a radius of ", radius, " m; give about half the spacing of ", spacing,
-          " m, a positive length of at most ", most * spacing, " m");
+  require(is_finite(radius) && radius >= least * spacing && radius <= most * spacing, "hmps: slave ", slave,
+          " of organ '", organ.name, "' has a radius of ", radius, " m; give about half the spacing of ", spacing,
+          " m, a length from ", least * spacing, " to ", most * spacing, " m");
   return radius;
 }
 

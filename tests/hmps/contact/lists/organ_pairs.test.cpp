@@ -96,7 +96,7 @@ TEST(OrganPairs, KeepTheRadiusOfEachSlave) {
 
 TEST(OrganPairs, RefuseARadiusThatIsNone) {
   const List some{1, 2};
-  for (const double radius : {0., -0.5, 0.751, 500., std::nan("")}) {
+  for (const double radius : {0., -0.5, 0.5e-3, 0.751, 500., std::nan("")}) {
     OrganPairs pairs;
     const auto add = [&] {
       pairs.add_organ(
