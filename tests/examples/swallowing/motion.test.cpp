@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "../../reference/message_of.hpp"
+#include "scene/build_scene.hpp"
 
 namespace motion_test {
 
@@ -42,6 +45,27 @@ TEST(Constrictors, RefuseStagesThatOutlastTheRelease) {
                           "30,28,1.5,0.1,0,1.7,0,1.85,2,0.2", "5,28,1.5,0.1,0,1.7,0.1,1.85,2,0.2"}) {
     const std::string text = message_of([&] { (void)swallowing::read_constrictors(folder_with(row)); });
     EXPECT_NE(text.find("constrictors.csv line 3: a level needs"), std::string::npos) << text;
+  }
+}
+
+/// Both the plates and the cricoid, region C, are prescribed, so that the wall between them would be crushed.
+TEST(Constrictors, LeaveRoomForTheWallBesideTheCricoid) {
+  const swallowing::Motion motion(SWALLOWING_DATA);
+  const auto scene = swallowing::make_scene({.spacing = 2.4e-3, .data = SWALLOWING_DATA});
+  const auto particles = scene.particles_of_regions();
+  for (const double t : {1.6, 1.7, 1.8, 1.84, 1.86, 1.88, 1.95}) {
+    std::vector<Eigen::Vector3d> cricoid;
+    for (std::size_t r = 0; r < particles.size(); ++r)
+      for (const hmps::Index i : particles[r])
+        if (scene.regions[r].name == "C") cricoid.push_back(motion(scene.regions[r], t)(scene.reference[i]));
+    double least = 1;
+    for (std::size_t r = 0; r < particles.size(); ++r)
+      for (const hmps::Index i : particles[r])
+        if (scene.regions[r].kind == swallowing::Region::door) {
+          const Eigen::Vector3d plate = motion(scene.regions[r], t)(scene.reference[i]);
+          for (const Eigen::Vector3d& x : cricoid) least = std::min(least, (plate - x).norm());
+        }
+    EXPECT_GT(least - scene.spacing, 4.6e-3) << t;  // the wall is 4.8 mm thick
   }
 }
 
