@@ -206,7 +206,7 @@ Scene vibration(const Scale& scale, End held) {
                          {.name = "integrator",
                           .values = {"symplectic Euler", "velocity Verlet"},
                           .standard = "symplectic Euler"}},
-          .crossed = crossed,
+          .crossed = {crossed},
           .run = run,
           .known = known,
           .repeats = scale.quick ? 1 : 5};

@@ -178,7 +178,7 @@ Scene contact(const Scale& scale) {
            {.name = "scalar", .values = {"double", "mixed", "float"}, .standard = "double"},
            {.name = "E_hat", .values = {0.25, 0.5, 1.}, .standard = 0.5, .unit = "E"},
            {.name = "D1", .values = {1e5, 1e6}, .standard = 1e5, .unit = "MPa", .per_unit = 1e6, .choice = false}},
-      .crossed = {"spacing", "kernel", "law", "k~"},
+      .crossed = {{"spacing", "kernel", "law", "k~"}},
       .run = press,
       .known = [](const Settings&) { return std::vector<double>{friction, 0, friction, friction, 0, 0}; },
       .repeats = scale.quick ? 1 : 5};

@@ -84,7 +84,7 @@ Scene sag(const Scale& scale) {
            {.name = "r_e", .values = {1.5, 1.75, 2.1}, .standard = 1.75, .unit = "l0"},
            {.name = "scalar", .values = {"double", "mixed"}, .standard = "double"},
            {.name = "step", .values = {0.5, 0.75}, .standard = 0.75}},
-      .crossed = {"spacing", "E_hat"},
+      .crossed = {{"spacing", "E_hat"}},
       .run = [](const Settings& s) { return s.word("scalar") == "mixed" ? sag_once<float>(s) : sag_once<double>(s); },
       .known = [](const Settings&) { return std::vector<double>{0.0234}; },
       .repeats = scale.quick ? 1 : 5};

@@ -108,7 +108,7 @@ Scene swallow(const Scale& scale) {
             .unit = "kPa/mm",
             .per_unit = 1e6},
            {.name = "lattice shift", .values = {0., 0.5}, .standard = 0., .unit = "l0", .choice = false}},
-      .crossed = {"spacing", "scalar"},
+      .crossed = {{"spacing", "scalar"}},
       .run = [scale, until](const Settings& settings) { return swallow_once(settings, scale, until); },
       .repeats = 0};
   if (scale.quick) {

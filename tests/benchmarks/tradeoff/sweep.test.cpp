@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -27,7 +28,7 @@ Scene formula() {
           .parameters = {{.name = "h", .values = {0.4, 0.2, 0.1}, .standard = 0.2, .refines = true},
                          {.name = "bias", .values = {0., -0.16}, .standard = 0.},
                          {.name = "scalar", .values = {"double", "float", "half"}, .standard = "double"}},
-          .crossed = {"h", "bias"},
+          .crossed = {{"h", "bias"}},
           .run =
               [](const Settings& s) {
                 if (s.word("scalar") == "half") throw hmps::StateError("overflow");
@@ -55,6 +56,29 @@ TEST(Plan, StartsWithTheStandardAndHoldsEveryCombinationOnce) {
   EXPECT_EQ(all.front(), formula().standard());
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(all[i], all[j]);
+}
+/// The groups share h, but bias and scalar are never combined.
+TEST(Plan, CrossesParametersWithinEachGroupOnly) {
+  Scene scene = formula();
+  scene.crossed = {{"h", "bias"}, {"h", "scalar"}};
+  const auto all = plan(scene);
+  EXPECT_EQ(all.size(), 3U * 2 + 3 * 2);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(all[i], all[j]);
+  for (const Settings& settings : all) EXPECT_TRUE(settings.number("bias") == 0 || settings.word("scalar") == "double");
+  const auto holds_settings = [&](const Settings& wanted) {
+    return std::find(all.begin(), all.end(), wanted) != all.end();
+  };
+  for (const Value& h : scene.parameter("h").values) {
+    EXPECT_TRUE(holds_settings(scene.standard().with("h", h).with("bias", -0.16)));
+    for (const char* scalar : {"float", "half"})
+      EXPECT_TRUE(holds_settings(scene.standard().with("h", h).with("scalar", scalar)));
+  }
+}
+TEST(Plan, RefusesAGroupWithAParameterThatIsNotThere) {
+  Scene scene = formula();
+  scene.crossed = {{"h", "bias"}, {"h", "spacing"}};
+  EXPECT_THROW((void)plan(scene), hmps::InputError);
 }
 TEST(Plan, AsksForTheStandardAmongTheValues) {
   Scene scene = formula();
