@@ -187,6 +187,15 @@ TEST(Rules, JudgeErrorsAndTimeTogether) {
   EXPECT_EQ(judge(scene, run(2.05, 1.05), standard), Verdict::same);
 }
 
+TEST(Page, HasATableOfEachPairOfCrossedParameters) {
+  Scene scene = formula();
+  scene.crossed = {{"h", "bias"}, {"h", "bias", "scalar"}};
+  const std::string text = section(scene, swept(scene), "x.png");
+  EXPECT_TRUE(holds_text(text, "### Combinations of h and bias\n\n| h, bias |")) << text;
+  EXPECT_TRUE(holds_text(text, "| 0.1, -0.16 |")) << text;
+  EXPECT_EQ(text.find("### Combinations"), text.rfind("### Combinations")) << "three are too many for a table";
+}
+
 TEST(Csv, HasALineForEachRunAndQuotesWords) {
   Scene scene = formula();
   const auto run = scene.run;
