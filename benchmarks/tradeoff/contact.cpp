@@ -199,12 +199,12 @@ Scene contact(const Scale& scale) {
           "A block of soft tissue of 12 x 12 x 8 mm (E = 20 kPa, 1000 kg/m3, viscosity 5e-3 m2/s) is pressed on a "
           "rigid wall by 1 kPa and slid along it over 4 mm at 0.1 m/s, with a friction coefficient of 0.2. The "
           "lattice of the wall (of a fitted one, the grid of samples) lies along the slide in one run and at 30 "
-          "degrees "
-          "to it in another; the worse of the two results counts. Friction is the mean tangential force over the mean "
-          "normal force; the ripple is the "
-          "root mean square deviation of the normal force from the load. The step is given as a share of the stable "
-          "step without contact, and k~ is that at the standard cadence. At a cadence of m, contact acts in every "
-          "m-th step only, with the impulse of m steps. The margin is that of the Verlet list.",
+          "degrees to it in another; the worse of the two results counts. The slide is only two to four spacings "
+          "long, so that climbing over the unevenness of a wall counts too. Friction is the mean tangential force "
+          "over the mean normal force; the ripple is the root mean square deviation of the normal force from the "
+          "load. The step is given as a share of the stable step without contact, and k~ is that at the standard "
+          "cadence. At a cadence of m, contact acts in every m-th step only, with the impulse of m steps. The margin "
+          "is that of the Verlet list.",
       .quantities = {{.name = "friction"},
                      {.name = "the ripple of the normal force", .scale = 1},
                      {.name = "friction at 0 degrees", .headline = false},

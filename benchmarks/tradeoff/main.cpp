@@ -41,7 +41,8 @@ std::string preface() {
          bullets(
              {"**Particles**: those of a lattice, or of `fit_particles`, bonded by a `BondList`, with E_hat and mean "
               "dilatation as `thin_wall_stabiliser` chooses them; with these, the setting E_hat does not apply and r_e "
-              "is 1.75 l0. The time and memory of the fit are not counted.",
+              "is 1.75 l0. A body of eight and more layers counts as bulk, where E_hat is 4/3 mu. The time and memory "
+              "of the fit are not counted.",
               "**Error**: signed, in per cent of the right answer or, if that is zero, of the energy or the load "
               "itself. The swallow has scales of its own.",
               "**Particle-steps** and **memory** are counted, not timed. Memory is what the scene holds while "

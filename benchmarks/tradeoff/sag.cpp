@@ -90,8 +90,9 @@ Scene sag(const Scale& scale) {
       .description =
           "A bar of 60 x 20 x 20 mm of the paper's soft tissue (C1 = C2 = 5/3 kPa, D1 = 1 MPa, 1000 kg/m3) is "
           "clamped at one end and comes to rest under gravity. The middle of its other end should then have sunk by "
-          "23.4 mm, which finite elements give to within 0.1 mm. The step is given as a share of the largest stable "
-          "step; mixed means kernels in float and state in double.",
+          "23.4 mm, which finite elements give to within 0.1 mm. On a lattice the two layers behind the clamped face "
+          "are held; of fitted particles, those from the face on, in which the outermost of them lie. The step is "
+          "given as a share of the largest stable step; mixed means kernels in float and state in double.",
       .quantities = {{.name = "the sag", .unit = "m"}},
       .parameters =
           {{.name = "spacing", .values = spacings, .standard = 0.004, .unit = "mm", .per_unit = 1e-3, .refines = true},
