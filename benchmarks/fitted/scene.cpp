@@ -58,14 +58,9 @@ std::string name(Choice choice) {
 
 FittedBody::FittedBody(double spacing, const std::vector<Piece>& pieces, Choice choice, int layers,
                        const hmps::MooneyRivlin<>& material, bool own_volumes)
-    : moving_(pieces.front().size()), body_(spacing, [&] {
-        std::vector<Vector> all;
-        for (const Piece& piece : pieces) all.insert(all.end(), piece.positions.begin(), piece.positions.end());
-        return all;
-      }()) {
+    : moving_(pieces.front().size()), body_(spacing, scenes::joined(pieces).positions) {
   if (own_volumes) {
-    std::vector<double> volumes;
-    for (const Piece& piece : pieces) volumes.insert(volumes.end(), piece.volumes.begin(), piece.volumes.end());
+    const std::vector<double> volumes = scenes::joined(pieces).volumes;
     bonds_ = std::make_unique<hmps::BondList<double, 3>>(body_.X(), hmps::BondSettings{.spacing = spacing},
                                                          hmps::scalars(volumes));
   } else {
@@ -77,18 +72,8 @@ FittedBody::FittedBody(double spacing, const std::vector<Piece>& pieces, Choice 
   if (choice == Choice::sheet) even = hmps::sheet_stabiliser(layers, bulk, shear);
   law.d1 = even.bulk.law / 2;
   if (choice == Choice::thin_wall) {
-    std::vector<int> through;
-    std::vector<double> apart;
-    for (const Piece& piece : pieces) {
-      through.insert(through.end(), piece.layers.begin(), piece.layers.end());
-      apart.insert(apart.end(), piece.layer_spacings.begin(), piece.layer_spacings.end());
-    }
-    auto wall = hmps::thin_wall_stabiliser(through, apart, spacing, bulk, shear);
-    moduli_ = std::move(wall.moduli);
-    law.d1 = wall.bulk.law / 2;
-    internal_ = hmps::internal_force(
-        *bonds_, hmps::elastic(law), hmps::mean_dilatation<2>(wall.bulk.mean),
-        hmps::artificial([modulus = hmps::scalars(moduli_)](const auto& of) { return of(modulus); }));
+    chosen_ = scenes::stabiliser_of(scenes::joined(pieces), spacing, material);
+    internal_ = scenes::thin_wall_force(*bonds_, material, chosen_);
   } else if (even.bulk.mean > 0) {
     internal_ = hmps::internal_force(*bonds_, hmps::elastic(law), hmps::mean_dilatation(even.bulk.mean),
                                      hmps::artificial(even.modulus));

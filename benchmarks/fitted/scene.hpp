@@ -12,12 +12,13 @@
 
 #include "report/table.hpp"
 #include "scenes/body.hpp"
+#include "scenes/fitted_body.hpp"
 
 /// Bodies of fitted particles at any orientation.
 namespace fitted {
 
 using Vector = hmps::Vector<double, 3>;
-using Piece = hmps::FittedParticles<double, 3>;
+using Piece = scenes::Fit;
 
 /// The placement of a body: turned about the origin, then moved.
 struct Placement {
@@ -103,7 +104,7 @@ class FittedBody {
  private:
   std::size_t moving_;
   scenes::Body<3> body_;
-  std::vector<double> moduli_;  // E_hat of each particle
+  hmps::ThinWallStabiliser<double> chosen_;
   std::unique_ptr<hmps::BondList<double, 3>> bonds_;
   hmps::ForceFunction<double, 3> internal_;
 };

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/fitted_body.hpp"
+
 namespace scenes {
 
 /// The particles of a block on a wall, those of the block first, and the sets of particles with a role in contact.
@@ -43,15 +45,31 @@ struct BlockSettings {
   double margin = 0.5;
 };
 
-template <class B, class M>
-[[nodiscard]] auto force_in(const B& bonds, const M& F, const BlockSettings& s) {
-  return hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(s.young, s.d1)),
-                              hmps::artificial(s.modulus), hmps::viscous(s.density, s.viscosity), hmps::record(F));
+[[nodiscard]] inline hmps::MooneyRivlin<> law_of(const BlockSettings& s) {
+  return hmps::MooneyRivlin<>::from_young(s.young, s.d1);
 }
 
+/// The internal force of a block with the same E_hat everywhere.
+struct EvenTerms {
+  template <class B, class M>
+  [[nodiscard]] auto operator()(const B& bonds, const M& F, const BlockSettings& s) const {
+    return hmps::internal_force(bonds, hmps::elastic(law_of(s)), hmps::artificial(s.modulus),
+                                hmps::viscous(s.density, s.viscosity), hmps::record(F));
+  }
+};
+/// That of fitted particles, whose stabiliser replaces E_hat of the settings.
+struct ThinWallTerms {
+  hmps::ThinWallStabiliser<double> chosen;
+
+  template <class B, class M>
+  [[nodiscard]] auto operator()(const B& bonds, const M& F, const BlockSettings& s) const {
+    return thin_wall_force(bonds, law_of(s), chosen, hmps::viscous(s.density, s.viscosity), hmps::record(F));
+  }
+};
+
 /// A block of soft tissue on a rigid wall, pressed by a rigid plate that sinks as far as the block allows. Its state
-/// has the scalar type `S`, the forces that of `Bonds`.
-template <class Bonds, class S, class Ball, class Friction>
+/// has the scalar type `S`, the forces that of `Bonds`. `Terms` makes the internal force.
+template <class Bonds, class S, class Ball, class Friction, class Terms = EvenTerms>
 struct PressedBlock {
   using K = typename Bonds::Scalar;
   using Vector = hmps::Vector<S, 3>;
@@ -61,8 +79,9 @@ struct PressedBlock {
   std::vector<Vector> velocity, load, carry, position;
   std::vector<hmps::Matrix<K, 3>> gradient;
   Bonds bonds;
-  decltype(force_in(std::declval<const Bonds&>(), std::declval<hmps::MatrixView<K, 3>>(),
-                    std::declval<const BlockSettings&>())) force;
+  Terms terms;
+  decltype(std::declval<const Terms&>()(std::declval<const Bonds&>(), std::declval<hmps::MatrixView<K, 3>>(),
+                                        std::declval<const BlockSettings&>())) force;
   double dt;           ///< s
   double sinking = 0;  ///< of the plate, m/s, upward
   hmps::MetaballContact<K, 3, Ball, Friction> contact;
@@ -70,7 +89,7 @@ struct PressedBlock {
 
   /// `choose(force, x, v)` returns the step in s.
   template <class Choose>
-  PressedBlock(BlockOnWall of, const BlockSettings& s, Choose&& choose)
+  PressedBlock(BlockOnWall of, const BlockSettings& s, Choose&& choose, Terms make_force = {})
       : parts(std::move(of)),
         settings(s),
         velocity(parts.places.size(), Vector::Zero()),
@@ -78,7 +97,8 @@ struct PressedBlock {
         carry(velocity),
         gradient(parts.places.size(), hmps::Matrix<K, 3>::Identity()),
         bonds((place(), block(x())), {.spacing = s.spacing}),
-        force(force_in(bonds, block(F()), s)),
+        terms(std::move(make_force)),
+        force(terms(bonds, block(F()), s)),
         dt(choose(force, block(x()), block(v()))),
         contact({.spacing = s.spacing,
                  .density = s.density,

@@ -12,6 +12,7 @@
 #include "scenes/pressed_block.hpp"
 #include "tradeoff/meter.hpp"
 #include "tradeoff/scenes.hpp"
+#include "tradeoff/tissue.hpp"
 
 namespace tradeoff {
 namespace {
@@ -26,35 +27,70 @@ struct Slide {
   double ripple;    ///< rms of the normal force about the load, over the load
 };
 
-/// The block stands on the wall so that they just touch; the wall's lattice is turned by `angle` (rad) about its
-/// normal.
-scenes::BlockOnWall parts_of(double l0, double angle) {
-  using Point = hmps::Vector<double, 3>;
+using Point = hmps::Vector<double, 3>;
+
+/// The particles of the block, whose lower surface is half a spacing above the origin.
+scenes::Fit block_of(double l0, bool fitted) {
   const hmps::Box<double, 3> box{Point(-width / 2, -width / 2, l0 / 2), Point(width / 2, width / 2, l0 / 2 + height)};
-  scenes::BlockOnWall parts{.places = hmps::fill_lattice(box, box, l0, Point(box.lower + Point::Constant(l0 / 2)))};
-  parts.block = parts.places.size();
-  for (std::size_t i = 0; i < parts.block; ++i) {
-    const double z = parts.places[i][2] / l0, top = box.upper[2] / l0;
-    if (z < 1.5) parts.bottom.push_back(static_cast<hmps::Index>(i));
-    if (z < 2.5) parts.lower.push_back(static_cast<hmps::Index>(i));
-    if (z > top - 1) parts.plate.push_back(static_cast<hmps::Index>(i));
+  if (fitted) return scenes::fit_turned(box, scenes::oblique(), l0);
+  scenes::Fit block;
+  block.positions = hmps::fill_lattice(box, box, l0, Point(box.lower + Point::Constant(l0 / 2)));
+  return block;
+}
+
+/// Adds the wall below the block, so that they just touch: three layers of a lattice, or fitted ones. Its lattice, or
+/// the samples of the fit, are turned by `angle` (rad) about its normal.
+void add_wall(scenes::BlockOnWall& parts, double l0, double angle, bool fitted) {
+  const double margin = 3 * l0, reach = width + speed * until;
+  const auto below_the_slide = [&](const Point& place) {
+    return std::abs(place[1]) <= width / 2 + margin && place[0] >= -width / 2 - margin &&
+           place[0] <= width / 2 + speed * until + margin;
+  };
+  if (fitted) {
+    const double beyond = width / 2 + 2 * margin;  // the layers run around the rim, which is left out
+    const hmps::Box<double, 3> slab{Point(-beyond, -beyond, -2.5 * l0),
+                                    Point(beyond + speed * until, beyond, 0.5 * l0)};
+    const auto turn = Eigen::AngleAxisd(angle, Point::UnitZ()).toRotationMatrix();
+    for (const Point& place : scenes::fit_turned(slab, turn, l0).positions)
+      if (below_the_slide(place)) parts.add_to_wall(place, place[2] > -0.5 * l0);
+    return;
   }
-  const double c = std::cos(angle), s = std::sin(angle), margin = 3 * l0, reach = width + speed * until;
+  const double c = std::cos(angle), s = std::sin(angle);
   const int cells = static_cast<int>(std::ceil(1.5 * reach / l0));
   for (int k = -2; k <= 0; ++k)
     for (int j = -cells; j <= cells; ++j)
       for (int i = -cells; i <= cells; ++i) {
         // Not aligned with the block's own lattice, as is usual for walls.
         const Point place = l0 * Point(c * i - s * j + 0.3, s * i + c * j + 0.2, k);
-        if (std::abs(place[1]) <= width / 2 + margin && place[0] >= -width / 2 - margin &&
-            place[0] <= width / 2 + speed * until + margin)
-          parts.add_to_wall(place, k == 0);
+        if (below_the_slide(place)) parts.add_to_wall(place, k == 0);
       }
+}
+
+/// The block and the wall.
+scenes::BlockOnWall parts_of(std::vector<Point> block, double l0, double angle, bool fitted) {
+  scenes::BlockOnWall parts{.places = std::move(block)};
+  parts.block = parts.places.size();
+  for (std::size_t i = 0; i < parts.block; ++i) {
+    const double z = parts.places[i][2] / l0, top = 0.5 + height / l0;
+    if (z < 1.5) parts.bottom.push_back(static_cast<hmps::Index>(i));
+    if (z < 2.5) parts.lower.push_back(static_cast<hmps::Index>(i));
+    if (z > top - 1) parts.plate.push_back(static_cast<hmps::Index>(i));
+  }
+  add_wall(parts, l0, angle, fitted);
   return parts;
 }
 
-/// Forces in the scalar type `K`, state in `S`.
-template <class K, class S, class Ball, class Friction>
+/// The terms of the block's force.
+template <bool fitted>
+auto terms_of(const scenes::Fit& block, const scenes::BlockSettings& settings) {
+  if constexpr (fitted)
+    return scenes::ThinWallTerms{scenes::stabiliser_of(block, settings.spacing, scenes::law_of(settings))};
+  else
+    return scenes::EvenTerms{};
+}
+
+/// Forces by `Bonds` in their scalar type, state in `S`.
+template <class Bonds, class S, class Ball, class Friction>
 Slide slide(const Settings& settings, double angle, Meter& meter) {
   const double l0 = settings.number("spacing"), ratio = settings.number("k~");
   const scenes::BlockSettings of{.spacing = l0,
@@ -69,15 +105,18 @@ Slide slide(const Settings& settings, double angle, Meter& meter) {
                                  .ratio = ratio,
                                  .damping = settings.number("damping"),
                                  .margin = settings.number("margin")};
-  scenes::BlockOnWall parts = parts_of(l0, angle);
+  constexpr bool fitted = std::is_same_v<Bonds, hmps::BondList<double, 3>>;
+  scenes::Fit filling = block_of(l0, fitted);
+  auto terms = terms_of<fitted>(filling, of);
+  scenes::BlockOnWall parts = parts_of(std::move(filling.positions), l0, angle, fitted);
   std::vector<bool> held(parts.block, false);
   for (const hmps::Index i : parts.plate) held[i] = true;
   const auto moves = [&](std::size_t i) { return !held[i]; };
-  scenes::PressedBlock<hmps::LatticeBonds<K, 3>, S, Ball, Friction> block(
-      std::move(parts), of, [&](auto& force, const auto& x, const auto& v) {
-        const double limit = hmps::stable_step(force, x, v, density, {.spacing = l0, .moves = moves}).step;
-        return settings.number("step") * limit * std::sqrt(1 - ratio);
-      });
+  const auto choose = [&](auto& force, const auto& x, const auto& v) {
+    const double limit = hmps::stable_step(force, x, v, density, {.spacing = l0, .moves = moves}).step;
+    return settings.number("step") * limit * std::sqrt(1 - ratio);
+  };
+  scenes::PressedBlock<Bonds, S, Ball, Friction, decltype(terms)> block(std::move(parts), of, choose, std::move(terms));
   const int cadence = static_cast<int>(settings.number("cadence"));
   double normal = 0, tangential = 0, squares = 0;
   int samples = 0;
@@ -111,34 +150,38 @@ Slide slide(const Settings& settings, double angle, Meter& meter) {
 }
 
 /// Both walls.
-template <class K, class S, class Ball, class Friction>
+template <class Bonds, class S, class Ball, class Friction>
 Outcome slides(const Settings& settings) {
   Meter meter;
-  const Slide along = slide<K, S, Ball, Friction>(settings, 0, meter);
-  const Slide across = slide<K, S, Ball, Friction>(settings, std::numbers::pi / 6, meter);
+  const Slide along = slide<Bonds, S, Ball, Friction>(settings, 0, meter);
+  const Slide across = slide<Bonds, S, Ball, Friction>(settings, std::numbers::pi / 6, meter);
   const auto off = [](const Slide& one) { return std::abs(one.friction - friction); };
   return meter.outcome({off(along) > off(across) ? along.friction : across.friction,
                         std::max(along.ripple, across.ripple), along.friction, across.friction, along.ripple,
                         across.ripple});
 }
 
-/// Metaball, friction law and scalar are types, which are selected here. Scalars other than double are available only
-/// with the default types, to limit the compile time.
+/// Metaball, friction law, scalar and bonds are types, which are selected here. Scalars other than double and fitted
+/// particles are available only with the default types, to limit the compile time.
 Outcome press(const Settings& settings) {
   using hmps::CorrectedFriction, hmps::PaperFriction, hmps::PaperMetaball, hmps::SmoothMetaball;
+  using Double = hmps::LatticeBonds<double, 3>;
+  using Float = hmps::LatticeBonds<float, 3>;
+  if (asks_for_fitted(settings, {{"kernel", "smooth"}, {"law", "corrected"}, {"scalar", "double"}, {"E_hat", 0.5}}))
+    return slides<hmps::BondList<double, 3>, double, SmoothMetaball, CorrectedFriction>(settings);
   const std::string& scalar = settings.word("scalar");
   const bool smooth = settings.word("kernel") == "smooth", corrected = settings.word("law") == "corrected";
   if (scalar == "double") {
     if (smooth)
-      return corrected ? slides<double, double, SmoothMetaball, CorrectedFriction>(settings)
-                       : slides<double, double, SmoothMetaball, PaperFriction>(settings);
-    return corrected ? slides<double, double, PaperMetaball, CorrectedFriction>(settings)
-                     : slides<double, double, PaperMetaball, PaperFriction>(settings);
+      return corrected ? slides<Double, double, SmoothMetaball, CorrectedFriction>(settings)
+                       : slides<Double, double, SmoothMetaball, PaperFriction>(settings);
+    return corrected ? slides<Double, double, PaperMetaball, CorrectedFriction>(settings)
+                     : slides<Double, double, PaperMetaball, PaperFriction>(settings);
   }
   examples::require(smooth && corrected, "the scalar ", scalar,
                     " is compiled for the smooth kernel and the corrected law");
-  return scalar == "float" ? slides<float, float, SmoothMetaball, CorrectedFriction>(settings)
-                           : slides<float, double, SmoothMetaball, CorrectedFriction>(settings);
+  return scalar == "float" ? slides<Float, float, SmoothMetaball, CorrectedFriction>(settings)
+                           : slides<Float, double, SmoothMetaball, CorrectedFriction>(settings);
 }
 
 }  // namespace
@@ -155,11 +198,13 @@ Scene contact(const Scale& scale) {
       .description =
           "A block of soft tissue of 12 x 12 x 8 mm (E = 20 kPa, 1000 kg/m3, viscosity 5e-3 m2/s) is pressed on a "
           "rigid wall by 1 kPa and slid along it over 4 mm at 0.1 m/s, with a friction coefficient of 0.2. The "
-          "lattice of the wall lies along the slide in one run and at 30 degrees to it in another; the worse of the "
-          "two results counts. Friction is the mean tangential force over the mean normal force; the ripple is the "
-          "root mean square deviation of the normal force from the load. The step is given as a share of the stable "
-          "step without contact, and k~ is that at the standard cadence. At a cadence of m, contact acts in every "
-          "m-th step only, with the impulse of m steps. The margin is that of the Verlet list.",
+          "lattice of the wall (of a fitted one, the grid of samples) lies along the slide in one run and at 30 "
+          "degrees to it in another; the worse of the two results counts. The slide is only two to four spacings "
+          "long, so that climbing over the unevenness of a wall counts too. Friction is the mean tangential force "
+          "over the mean normal force; the ripple is the root mean square deviation of the normal force from the "
+          "load. The step is given as a share of the stable step without contact, and k~ is that at the standard "
+          "cadence. At a cadence of m, contact acts in every m-th step only, with the impulse of m steps. The margin "
+          "is that of the Verlet list.",
       .quantities = {{.name = "friction"},
                      {.name = "the ripple of the normal force", .scale = 1},
                      {.name = "friction at 0 degrees", .headline = false},
@@ -177,8 +222,9 @@ Scene contact(const Scale& scale) {
            {.name = "step", .values = {0.3, 0.6, 0.9}, .standard = 0.6},
            {.name = "scalar", .values = {"double", "mixed", "float"}, .standard = "double"},
            {.name = "E_hat", .values = {0.25, 0.5, 1.}, .standard = 0.5, .unit = "E"},
-           {.name = "D1", .values = {1e5, 1e6}, .standard = 1e5, .unit = "MPa", .per_unit = 1e6, .choice = false}},
-      .crossed = {"spacing", "kernel", "law", "k~"},
+           {.name = "D1", .values = {1e5, 1e6}, .standard = 1e5, .unit = "MPa", .per_unit = 1e6, .choice = false},
+           particles_parameter()},
+      .crossed = {{"spacing", "kernel", "law", "k~"}, {"spacing", "particles"}},
       .run = press,
       .known = [](const Settings&) { return std::vector<double>{friction, 0, friction, friction, 0, 0}; },
       .repeats = scale.quick ? 1 : 5};

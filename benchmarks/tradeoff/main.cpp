@@ -35,11 +35,15 @@ std::string preface() {
          wrapped(
              "This page and its pictures are written by `benchmarks/tradeoff/run`; nothing in it is typed by hand. "
              "`benchmarks/tradeoff/run --help` lists its options; the tables of all runs go to `results/tradeoff`. A "
-             "scene of your own takes one file of less than a hundred lines: start from "
+             "scene of your own takes one file of about a hundred lines: start from "
              "`benchmarks/tradeoff/sag.cpp`.") +
          '\n' +
          bullets(
-             {"**Error**: signed, in per cent of the right answer or, if that is zero, of the energy or the load "
+             {"**Particles**: those of a lattice, or of `fit_particles`, bonded by a `BondList`, with E_hat and mean "
+              "dilatation as `thin_wall_stabiliser` chooses them; with these, the setting E_hat does not apply and r_e "
+              "is 1.75 l0. A body of eight and more layers counts as bulk, where E_hat is 4/3 mu. The time and memory "
+              "of the fit are not counted.",
+              "**Error**: signed, in per cent of the right answer or, if that is zero, of the energy or the load "
               "itself. The swallow has scales of its own.",
               "**Particle-steps** and **memory** are counted, not timed. Memory is what the scene holds while "
               "stepping.",
@@ -60,7 +64,7 @@ std::string preface() {
 int main(int argc, char** argv) {
   report::Study study(
       "tradeoff",
-      "Sweeps scenes over spacing, step, scalar and more, and writes the front of error against cost as "
+      "Sweeps scenes over spacing, step, scalar, particles and more, and writes the front of error against cost as "
       "CSV,\npicture and sentences.",
       "small sweeps of seconds, to see that it works");
   std::vector<std::string> names;

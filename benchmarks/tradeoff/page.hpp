@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "report/table.hpp"
 #include "tradeoff/rules.hpp"
@@ -47,6 +48,26 @@ inline void add_run(report::Table& table, const Scene& scene, const std::string&
 
 }  // namespace detail
 
+namespace detail {
+
+/// A table of all combinations for each pair of parameters that are crossed with each other alone.
+[[nodiscard]] inline std::string pair_tables(const Scene& scene, const Sweep& sweep) {
+  std::string text;
+  for (const std::vector<std::string>& group : scene.crossed) {
+    if (group.size() != 2) continue;
+    report::Table pairs = runs_table(scene, group[0] + ", " + group[1]);
+    for (const Settings& settings : combinations(scene, group)) {
+      const auto shown = [&](const std::string& name) { return scene.parameter(name).shown(settings.at(name)); };
+      if (const Trial* run = sweep.find(settings))
+        add_run(pairs, scene, shown(group[0]) + ", " + shown(group[1]), *run);
+    }
+    text += "\n### Combinations of " + group[0] + " and " + group[1] + "\n\n" + pairs.markdown();
+  }
+  return text;
+}
+
+}  // namespace detail
+
 /// The section of the page about this sweep, in Markdown, with a link to the `picture`.
 [[nodiscard]] inline std::string section(const Scene& scene, const Sweep& sweep, const std::string& picture) {
   const Trial& standard = sweep.standard();
@@ -65,7 +86,7 @@ inline void add_run(report::Table& table, const Scene& scene, const std::string&
         if (const Trial* run = sweep.find(scene.standard().with(p.name, value)))
           detail::add_run(single, scene, p.name + ' ' + p.shown(value), *run);
   text += "\n### What each setting does\n\n" + bullets(single_rules(scene, sweep)) +
-          "\n### One parameter at a time\n\n" + single.markdown();
+          "\n### One parameter at a time\n\n" + single.markdown() + detail::pair_tables(scene, sweep);
   for (std::size_t q = 0; q < scene.quantities.size(); ++q) {
     if (!scene.quantities[q].headline) continue;
     report::Table best = detail::runs_table(scene, "number in the picture: settings that differ from the standard");

@@ -63,8 +63,9 @@ struct Scene {
   std::string description;  ///< what is simulated and what it is compared with, in sentences
   std::vector<Quantity> quantities;
   std::vector<Parameter> parameters;
-  /// Parameters whose values are all combined with each other. The others are varied one at a time.
-  std::vector<std::string> crossed;
+  /// Groups of parameters. Within a group all values are combined with each other, while parameters outside it keep
+  /// their standard. So two parameters that exclude each other may both be crossed with a third.
+  std::vector<std::vector<std::string>> crossed;
   std::function<Outcome(const Settings&)> run;
   std::function<std::vector<double>(const Settings&)> known = {};
   std::optional<Settings> reference = {};

@@ -69,16 +69,21 @@ inline constexpr const Cost& seconds_cost = costs[1];
 /// The result points to runs of the sweep, which must outlive it.
 std::vector<const Trial*> front(const Scene&, Sweep&&, std::size_t, const Cost&) = delete;
 
-/// The settings that a sweep runs: the standard, all combinations of the crossed parameters, and every other value
-/// alone. No combination occurs twice.
-[[nodiscard]] inline std::vector<Settings> plan(const Scene& scene) {
+/// All combinations of the values of some parameters; the others have their standard.
+[[nodiscard]] inline std::vector<Settings> combinations(const Scene& scene, const std::vector<std::string>& names) {
   std::vector<Settings> grid{scene.standard()};
-  for (const std::string& name : scene.crossed) {
+  for (const std::string& name : names) {
     std::vector<Settings> wider;
     for (const Settings& settings : grid)
       for (const Value& value : scene.parameter(name).values) wider.push_back(settings.with(name, value));
     grid = std::move(wider);
   }
+  return grid;
+}
+
+/// The settings that a sweep runs: the standard, every other value alone, and all combinations within each group of
+/// crossed parameters. No combination occurs twice.
+[[nodiscard]] inline std::vector<Settings> plan(const Scene& scene) {
   std::vector<Settings> all{scene.standard()};
   const auto add = [&](const Settings& settings) {
     if (std::find(all.begin(), all.end(), settings) == all.end()) all.push_back(settings);
@@ -89,7 +94,8 @@ std::vector<const Trial*> front(const Scene&, Sweep&&, std::size_t, const Cost&)
                       " is not among its values; add it");
     for (const Value& value : p.values) add(scene.standard().with(p.name, value));
   }
-  for (const Settings& settings : grid) add(settings);
+  for (const std::vector<std::string>& group : scene.crossed)
+    for (const Settings& settings : combinations(scene, group)) add(settings);
   return all;
 }
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/fitted_body.hpp"
+
 namespace walls {
 
 using Point = hmps::Vector<double, 3>;
@@ -44,12 +46,7 @@ enum class Made {
 /// samples it. Lengths in m.
 [[nodiscard]] inline std::vector<Point> fitted(double angle, const hmps::Box<double, 3>& box, double spacing) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  const Point centre = (box.lower + box.upper) / 2, half = (box.upper - box.lower) / 2;
-  const Point reach = turn.cwiseAbs() * half + Point::Constant(0.1 * spacing);
-  const auto turned = [&](const Point& x) { return box(centre + turn.transpose() * x); };
-  std::vector<Point> places = hmps::fit_particles(turned, hmps::Box<double, 3>{-reach, reach}, spacing).positions;
-  for (Point& place : places) place = centre + turn.transpose() * place;
-  return places;
+  return scenes::fit_turned(box, turn, spacing).positions;
 }
 
 /// A rigid wall below z = 0, four layers deep, that is cut out of a lattice or fitted. `degrees` is the angle about y

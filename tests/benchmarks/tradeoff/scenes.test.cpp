@@ -60,6 +60,14 @@ TEST_P(Vibration, HasTheSameFrequencyInFloatAsRoundingAllows) {
     EXPECT_NEAR(run(scene().standard().with("scalar", scalar)).outcome.values[0] / one, 1, rounding) << scalar;
 }
 
+/// Four layers; a clamp half a spacing off would change the frequency of the beam by 2.5 %.
+TEST_P(Vibration, OfFittedParticlesHasTheRightFrequency) {
+  const Trial fitted = run(scene().standard().with("particles", "fitted"));
+  ASSERT_FALSE(fitted.failed()) << fitted.failure;
+  EXPECT_LT(std::abs(fitted.errors[0]), 2) << "of the frequency";
+  EXPECT_LT(std::abs(fitted.errors[1]), 1.5 * std::abs(run(scene().standard()).errors[1])) << "of the energy";
+}
+
 TEST_P(Vibration, BreaksDownAboveTheStableStepAndSaysSo) {
   EXPECT_TRUE(run(scene().standard().with("step", 1.05)).failed());
   EXPECT_FALSE(run(scene().standard().with("step", 0.95)).failed());
@@ -96,6 +104,45 @@ TEST(Sag, ComesNearerToFiniteElementsWhenTheSpacingFalls) {
   EXPECT_LT(error, std::abs(run_once(scene, fine.with("E_hat", 1.), {}).errors[0])) << "the stabiliser stiffens";
 }
 
+/// Held particles resist nearly incompressible tissue more than the face of a continuum does, so that the bar sags too
+/// little; with a clamp half a spacing further back it would sag by 12 % more.
+TEST(Sag, OfFittedParticlesIsSmallAtTheHeldFace) {
+  const Scene scene = sag({.quick = true});
+  const Settings fitted = scene.standard().with("particles", "fitted");
+  const Trial coarse = run_once(scene, fitted.with("spacing", 0.005), {}), fine = run_once(scene, fitted, {});
+  ASSERT_FALSE(fine.failed()) << fine.failure;
+  EXPECT_LT(std::abs(fine.errors[0]), std::abs(coarse.errors[0]));
+  EXPECT_LT(fine.errors[0], 0);
+  EXPECT_GT(fine.errors[0], -12);
+}
+
+/// Fitted particles choose E_hat themselves, and only the standard types of contact are compiled for them.
+TEST(FittedParticles, AreRefusedWithSettingsThatDoNotApply) {
+  const Scale quick{.quick = true};
+  const auto refuses = [](const Scene& scene, const std::string& name, const Value& value) {
+    const Trial run = run_once(scene, scene.standard().with("particles", "fitted").with(name, value), {});
+    return run.failure.find("the parameter " + name + " cannot be varied with fitted particles") != std::string::npos;
+  };
+  for (const Scene& scene : {beam(quick), bar(quick), sag(quick)}) {
+    EXPECT_TRUE(refuses(scene, "E_hat", 1.)) << scene.name;
+    EXPECT_TRUE(refuses(scene, "r_e", 1.5)) << scene.name;
+  }
+  for (const auto& [name, value] : Settings{{"kernel", "paper"}, {"law", "paper"}, {"scalar", "float"}, {"E_hat", 1.}})
+    EXPECT_TRUE(refuses(contact(quick), name, value)) << name;
+}
+TEST(FittedParticles, AreInNoPlanWithSuchSettings) {
+  for (const Scene& scene : {beam({}), bar({}), sag({}), contact({})}) {
+    std::size_t fitted = 0;
+    for (const Settings& settings : plan(scene)) {
+      if (settings.word("particles") != "fitted") continue;
+      ++fitted;
+      for (const char* name : {"E_hat", "scalar", "step"})
+        EXPECT_EQ(settings.at(name), scene.standard().at(name)) << scene.name;
+    }
+    EXPECT_EQ(fitted, scene.parameter("spacing").values.size()) << scene.name;
+  }
+}
+
 /// A washboard or a wrong share of friction would show: with the defaults friction is right to a per cent on both
 /// walls, and with the paper's metaball it is not.
 TEST(Contact, HasTheRightFrictionOnTheSmoothWallOnly) {
@@ -105,6 +152,13 @@ TEST(Contact, HasTheRightFrictionOnTheSmoothWallOnly) {
   EXPECT_LT(std::abs(smooth.errors[0]), 1);
   EXPECT_LT(smooth.errors[1], 10);
   EXPECT_GT(std::abs(paper.errors[0]), 5);
+}
+TEST(Contact, HasTheRightFrictionOnAFittedWall) {
+  const Scene scene = contact({.quick = true});
+  const Trial fitted = run_once(scene, scene.standard().with("particles", "fitted"), {});
+  ASSERT_FALSE(fitted.failed()) << fitted.failure;
+  EXPECT_LT(std::abs(fitted.errors[0]), 1);
+  EXPECT_LT(fitted.errors[1], 10);
 }
 TEST(Contact, RefusesAPenaltyTooStiffForTheCadence) {
   const Scene scene = contact({.quick = true});

@@ -8,6 +8,7 @@
 #include "../../reference/temporary_folder.hpp"
 #include "output/summary.hpp"
 #include "tradeoff/scenes.hpp"
+#include "tradeoff/sweep.hpp"
 
 namespace swallow_test {
 
@@ -65,10 +66,21 @@ TEST_F(Finer, RunOfAnotherKindIsNot) {
   other = good();
   other.fold_time.reset();
   add("not_folded", other);
+  other = good();
+  other.settings = {{"particles", "fitted"}};
+  add("fitted", other);
   const tradeoff::Scene found = scene();
   EXPECT_FALSE(found.known);
   ASSERT_TRUE(found.reference.has_value());
   EXPECT_EQ(found.reference->number("spacing"), 1.8e-3);
+}
+
+TEST_F(Finer, FittedParticlesAreNotCombinedWithAShiftedLattice) {
+  const tradeoff::Scene found = scene();
+  const auto fitted = found.standard().with("particles", "fitted");
+  EXPECT_THROW((void)found.run(fitted.with("lattice shift", 0.5)), hmps::InputError);
+  for (const auto& settings : tradeoff::plan(found))
+    EXPECT_TRUE(settings.word("particles") == "lattice" || settings.number("lattice shift") == 0);
 }
 
 }  // namespace swallow_test

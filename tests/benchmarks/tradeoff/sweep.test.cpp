@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -27,7 +28,7 @@ Scene formula() {
           .parameters = {{.name = "h", .values = {0.4, 0.2, 0.1}, .standard = 0.2, .refines = true},
                          {.name = "bias", .values = {0., -0.16}, .standard = 0.},
                          {.name = "scalar", .values = {"double", "float", "half"}, .standard = "double"}},
-          .crossed = {"h", "bias"},
+          .crossed = {{"h", "bias"}},
           .run =
               [](const Settings& s) {
                 if (s.word("scalar") == "half") throw hmps::StateError("overflow");
@@ -55,6 +56,29 @@ TEST(Plan, StartsWithTheStandardAndHoldsEveryCombinationOnce) {
   EXPECT_EQ(all.front(), formula().standard());
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(all[i], all[j]);
+}
+/// The groups share h, but bias and scalar are never combined.
+TEST(Plan, CrossesParametersWithinEachGroupOnly) {
+  Scene scene = formula();
+  scene.crossed = {{"h", "bias"}, {"h", "scalar"}};
+  const auto all = plan(scene);
+  EXPECT_EQ(all.size(), 3U * 2 + 3 * 2);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(all[i], all[j]);
+  for (const Settings& settings : all) EXPECT_TRUE(settings.number("bias") == 0 || settings.word("scalar") == "double");
+  const auto holds_settings = [&](const Settings& wanted) {
+    return std::find(all.begin(), all.end(), wanted) != all.end();
+  };
+  for (const Value& h : scene.parameter("h").values) {
+    EXPECT_TRUE(holds_settings(scene.standard().with("h", h).with("bias", -0.16)));
+    for (const char* scalar : {"float", "half"})
+      EXPECT_TRUE(holds_settings(scene.standard().with("h", h).with("scalar", scalar)));
+  }
+}
+TEST(Plan, RefusesAGroupWithAParameterThatIsNotThere) {
+  Scene scene = formula();
+  scene.crossed = {{"h", "bias"}, {"h", "spacing"}};
+  EXPECT_THROW((void)plan(scene), hmps::InputError);
 }
 TEST(Plan, AsksForTheStandardAmongTheValues) {
   Scene scene = formula();
@@ -161,6 +185,15 @@ TEST(Rules, JudgeErrorsAndTimeTogether) {
   EXPECT_EQ(judge(scene, run(-3, 1), standard), Verdict::leave);
   EXPECT_EQ(judge(scene, run(2, 2), standard), Verdict::leave);
   EXPECT_EQ(judge(scene, run(2.05, 1.05), standard), Verdict::same);
+}
+
+TEST(Page, HasATableOfEachPairOfCrossedParameters) {
+  Scene scene = formula();
+  scene.crossed = {{"h", "bias"}, {"h", "bias", "scalar"}};
+  const std::string text = section(scene, swept(scene), "x.png");
+  EXPECT_TRUE(holds_text(text, "### Combinations of h and bias\n\n| h, bias |")) << text;
+  EXPECT_TRUE(holds_text(text, "| 0.1, -0.16 |")) << text;
+  EXPECT_EQ(text.find("### Combinations"), text.rfind("### Combinations")) << "three are too many for a table";
 }
 
 TEST(Csv, HasALineForEachRunAndQuotesWords) {
