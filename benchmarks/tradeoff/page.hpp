@@ -46,10 +46,6 @@ inline void add_run(report::Table& table, const Scene& scene, const std::string&
          " runs.";
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// A table of all combinations for each pair of parameters that are crossed with each other alone.
 [[nodiscard]] inline std::string pair_tables(const Scene& scene, const Sweep& sweep) {
   std::string text;
