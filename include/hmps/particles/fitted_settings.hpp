@@ -3,6 +3,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/finite.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
