@@ -12,8 +12,8 @@
 
 #include "output/frames.hpp"
 #include "output/measure.hpp"
-#include "output/snapshots.hpp"
 #include "output/series.hpp"
+#include "output/snapshots.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
