@@ -87,7 +87,10 @@ void require_carry(const VectorView<T, D>& x, const VectorView<U, D>& v, const V
       const double kept = std::abs(static_cast<double>(carry(i, c)));
       if (!is_finite(length)) return;
       reach = std::max(reach, length);
-      if (is_finite(largest) && (!is_finite(kept) || kept > largest)) largest = kept, worst = i;
+      if (is_finite(largest) && (!is_finite(kept) || kept > largest)) {
+        largest = kept;
+        worst = i;
+      }
     }
   // Far above rounding, so that positions may be moved closer to the origin during a run.
   const double most = std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon())) * reach;
