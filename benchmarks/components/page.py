@@ -135,8 +135,10 @@ class Page:
                  f"{100 * self.runs[name]['lanes']:.0f} %", f"{100 * self.runs[f'step/box/{kind}/{PAPER}/1']['lanes']:.0f} %"]
                 for kind, name in thin]
         particles = thin[0][1].split("/")[3]
-        yield from words(f"Thin walls fill fewer lanes, because few neighbours are consecutive. The table is for half "
-                         f"a hollow ball of {size(particles)} particles with a wall of three particles, on one thread.")
+        yield from words(f"In thin walls, few neighbours are consecutive: an offset takes several runs, or one window "
+                         f"where the target picks lanes from two registers (AVX-512). At the faces, particles lack "
+                         f"bonds, so that some lanes remain empty. The table is for half a hollow ball of "
+                         f"{size(particles)} particles with a wall of three particles, on one thread.")
         yield from table(["Kind", "M/s", "over the box", "lanes that hold a bond", "such lanes in the box"], rows)
 
     def roofline(self):

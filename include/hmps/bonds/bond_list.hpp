@@ -140,7 +140,6 @@ class BondList : public Blocks<K, D> {
       else
         return slots.run(first_);
     }
-    static constexpr bool skips = false;
     [[nodiscard]] HMPS_INLINE static constexpr bool along(int) { return true; }
     [[nodiscard]] HMPS_INLINE const Lanes<K>& offset(int c) const { return r0_[c]; }
     [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return weights_; }

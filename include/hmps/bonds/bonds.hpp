@@ -25,7 +25,6 @@ concept BondRow = requires(const Row& row, const Slots& slots) {
   { row.offset(0) } -> std::convertible_to<Lanes<K>>;
   { row.along(0) } -> std::convertible_to<bool>;
   { row.weight() } -> std::convertible_to<Lanes<K>>;
-  { Row::skips } -> std::convertible_to<bool>;
 };
 
 /// Fails to compile if `Row` is not a row of bonds.
@@ -33,8 +32,7 @@ template <class Row, class B>
 struct RequireRow {
   static_assert(
       BondRow<Row, typename B::template Slots<1>, typename B::Scalar>,
-      "hmps: a row of bonds needs gather(slots), offset(c), along(c), weight(), const, and the constant skips; "
-      "see Bonds");
+      "hmps: a row of bonds needs gather(slots), offset(c), along(c), weight(), const; see Bonds");
   static constexpr bool value = true;
 };
 }  // namespace detail
@@ -42,9 +40,8 @@ struct RequireRow {
 /// The bonds of a body: a `Blocks` with `for_each_row(block, visit)`, which calls `visit(row)` for each row; rows may
 /// have several types. A row has `row.gather(slots)`, which reads `Slots<N>` and returns an object whose `[c]` is
 /// component c for the neighbour in each lane; `row.offset(c)`, component c of r0; `row.along(c)`, which is false if
-/// that component is zero in all lanes and may be skipped; the constant `skips`, which says whether `along` is ever
-/// false; and `row.weight()`, w, zero in lanes without a bond. `for_each_bond(i, visit)` calls `visit(j, r0, w)` for
-/// the bonds of particle i. Models: `BondList`, `LatticeBonds`.
+/// that component is zero in all lanes and may be skipped; and `row.weight()`, w, zero in lanes without a bond.
+/// `for_each_bond(i, visit)` calls `visit(j, r0, w)` for the bonds of particle i. Models: `BondList`, `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &&
     requires(const B& bonds, typename B::template Slots<1>& slots, const typename B::template Slots<1>& kept,

@@ -14,6 +14,7 @@
 
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/lattice_cells.hpp"
+#include "hmps/bonds/lattice_rows.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
@@ -43,8 +44,9 @@ template <class T, int D>
 
 /// The bonds of particles on a simple cubic lattice in their reference configuration. All particles share the offsets
 /// r0 and weights w0 (\paper{8}). For each offset, a block of particles stores the runs of consecutive neighbours,
-/// eight bytes each. Particles may deviate from their sites by the rounding of the user's scalar type, up to a
-/// thousandth of the spacing; r0 is that of the lattice. Models `Bonds`.
+/// eight bytes each, or windows from which neighbours are picked, eight bytes and one per lane each. Particles may
+/// deviate from their sites by the rounding of the user's scalar type, up to a thousandth of the spacing; r0 is that of
+/// the lattice. Models `Bonds`.
 template <class K, int D>
 class LatticeBonds : public Blocks<K, D> {
   using Base = Blocks<K, D>;
@@ -66,45 +68,52 @@ class LatticeBonds : public Blocks<K, D> {
   /// to `i` (m) and weight.
   template <class Visit>
   void for_each_bond(std::size_t i, Visit&& visit) const {
-    const std::size_t slot = this->slot(i), l = slot % width;
-    const std::size_t group = slot / width * directions;
-    for (std::size_t row = first_run_[group]; row < first_run_[group + directions]; ++row) {
-      const Run& run = runs_[row];
-      if ((run.lanes >> l & 1u) == 0) continue;
-      const auto neighbour = static_cast<std::size_t>(run.first + static_cast<std::ptrdiff_t>(l));
+    const std::size_t slot = this->slot(i), block = slot / width, l = slot % width;
+    for (const auto* row = rows_.begin(block * directions); row != rows_.begin((block + 1) * directions); ++row) {
+      if ((row->lanes >> l & 1u) == 0) continue;
       Vector<K, D> r0;
-      for (int c = 0; c < D; ++c) r0[c] = offset_[run.offset].r0[c];
-      visit(this->particle(neighbour), r0, offset_[run.offset].w);
+      for (int c = 0; c < D; ++c) r0[c] = offset_[row->offset].r0[c];
+      visit(this->particle(rows_.neighbour(block, row, l)), r0, offset_[row->offset].w);
     }
   }
 
-  [[nodiscard]] std::size_t bytes() const {
-    return Base::bytes() + runs_.size() * sizeof(Run) + first_run_.size() * sizeof(std::uint32_t);
-  }
+  [[nodiscard]] std::size_t bytes() const { return Base::bytes() + rows_.bytes(); }
 
   /// The first slot that the last row of `block` reads.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
-    const std::size_t end = first_run_[(block + 1) * directions];
-    if (end == first_run_[block * directions]) return block * width;
-    return static_cast<std::size_t>(std::max(runs_[end - 1].first, 0));
+    const auto *first = rows_.begin(block * directions), *end = rows_.begin((block + 1) * directions);
+    return first == end ? block * width : static_cast<std::size_t>(std::max((end - 1)->first, 0));
   }
 
-  /// A row: at most one bond per lane of a block. The neighbour of lane l is slot `first + l`; r0 has nonzero
-  /// components along `Axes` only (bit c for component c).
+  /// A row: at most one bond per lane of a block; r0 has nonzero components along `Axes` only (bit c for component c).
+  /// The neighbour of lane l is slot `first + l`, or `first + places[l]` in a `WindowRow`.
   template <unsigned Axes>
-  struct Row {
+  struct OffsetRow {
     const K* r0;
     Lanes<K> w;
+
+    [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
+    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
+  };
+  template <unsigned Axes>
+  struct Row : OffsetRow<Axes> {
     std::ptrdiff_t first;
 
-    static constexpr bool skips = true;
-    [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
     template <std::size_t N>
     [[nodiscard]] HMPS_INLINE auto gather(const detail::SlotArrays<K, N>& slots) const {
       return slots.run(first);
     }
-    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
-    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
+  };
+  template <unsigned Axes>
+  struct WindowRow : OffsetRow<Axes> {
+    std::size_t first;
+    detail::WindowPlaces<K> places;
+
+    template <std::size_t N>
+    [[nodiscard]] HMPS_INLINE auto gather(const detail::SlotArrays<K, N>& slots) const {
+      return slots.window(first, places);
+    }
   };
 
   /// Calls `visit(row)` for each row of bonds of `block`, grouped by axes. Each set of axes has its own type of row, so
@@ -115,39 +124,41 @@ class LatticeBonds : public Blocks<K, D> {
   }
 
  private:
-  /// Number of sets of axes that a bond may lie along; the set with the bits b has the index b - 1.
-  static constexpr unsigned directions = (1u << D) - 1;
+  using Rows = detail::LatticeRows<K, D>;
+  static constexpr unsigned directions = Rows::directions;
 
   template <class Visit, unsigned... Places>
   HMPS_INLINE void for_each_row(std::size_t block, Visit& visit, std::integer_sequence<unsigned, Places...>) const {
-    (for_each_row_along<Places>(block, visit), ...);
+    if (!rows_.has_windows(block))
+      (for_each_run_along<Places>(block, visit), ...);
+    else
+      (for_each_window_along<Places>(block, visit), ...);
   }
   template <unsigned Place, class Visit>
-  HMPS_INLINE void for_each_row_along(std::size_t block, Visit& visit) const {
+  HMPS_INLINE void for_each_run_along(std::size_t block, Visit& visit) const {
     const std::size_t group = block * directions + Place;
-    const Run* const end = runs_.data() + first_run_[group + 1];
-    for (const Run* run = runs_.data() + first_run_[group]; run != end; ++run) {
-      const Offset& offset = offset_[run->offset];
-      visit(Row<Place + 1>{offset.r0, detail::spread(run->lanes, offset.w), run->first});
-    }
+    for (const auto *row = rows_.begin(group), *end = rows_.end(group); row != end; ++row)
+      visit(Row<Place + 1>{row_of<Place + 1>(*row), row->first});
+  }
+  template <unsigned Place, class Visit>
+  HMPS_INLINE void for_each_window_along(std::size_t block, Visit& visit) const {
+    const std::size_t group = block * directions + Place;
+    const auto *row = rows_.begin(group), *const end = rows_.end(group);
+    const auto* places = rows_.places(block) + (row - rows_.begin(block * directions));
+    for (; row != end; ++row, ++places)
+      visit(WindowRow<Place + 1>{row_of<Place + 1>(*row), static_cast<std::size_t>(row->first),
+                                 detail::WindowPlaces<K>(*places)});
+  }
+  template <unsigned Axes>
+  [[nodiscard]] HMPS_INLINE OffsetRow<Axes> row_of(const typename Rows::Row& row) const {
+    const Offset& offset = offset_[row.offset];
+    return {offset.r0, detail::spread(row.lanes, offset.w)};
   }
 
   struct Offset {
     K r0[std::size_t{D}];
     K w;
   };
-  struct Run {
-    std::int32_t first;
-    std::uint16_t lanes;
-    std::uint16_t offset;
-  };
-  static_assert(width <= 16, "hmps: the lanes of a run are kept in 16 bits");
-  /// A run of neighbours of a block, with its set of axes.
-  struct Placed {
-    std::size_t group;
-    Run run;
-  };
-
   template <class T>
   [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
                                                              const BondSettings& settings) {
@@ -171,7 +182,7 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<std::int64_t> keys(n);
     for (std::size_t s = 0; s < n; ++s) keys[s] = cells.key(cells.cell[cells.order[s]]);
 
-    std::vector<Placed> placed;
+    std::vector<typename Rows::Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
     detail::require(settings.radius_ratio >= 1 && settings.radius_ratio < 16, "hmps: the effective radius is ",
@@ -215,24 +226,12 @@ class LatticeBonds : public Blocks<K, D> {
       const std::string hint = detail::spacing_hint(reference, settings.spacing);
       if (!hint.empty()) throw InputError("hmps: no two particles are close enough to be bonded" + hint);
     }
-    keep_runs(placed);
+    rows_ = Rows(placed, this->block_count());
     for (std::size_t i = 0; i < n; ++i)
       this->keep_shape(i, shapes[i].inverse(i, settings.unbonded), shapes[i].asymmetry, shapes[i].A.trace());
     this->share_shapes();
     detail::require_standard_weight(inside.weight);
     this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
-  }
-
-  /// Sorts the runs, which arrive offset by offset, by block; a counting sort preserves the order of offsets.
-  void keep_runs(const std::vector<Placed>& placed) {
-    detail::require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", this->size(),
-                    " particles make ", placed.size(), " runs, more than can be numbered; divide the body");
-    first_run_.assign(this->block_count() * directions + 1, 0);
-    for (const Placed& p : placed) ++first_run_[p.group + 1];
-    std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
-    runs_.resize(placed.size());
-    std::vector<std::uint32_t> next(first_run_.begin(), first_run_.end() - 1);
-    for (const Placed& p : placed) runs_[next[p.group]++] = p.run;
   }
 
   /// The axes along which `cell` differs from the origin.
@@ -244,8 +243,7 @@ class LatticeBonds : public Blocks<K, D> {
   }
 
   std::vector<Offset> offset_;
-  std::vector<Run> runs_;
-  std::vector<std::uint32_t> first_run_;  ///< For each set of axes of each block.
+  Rows rows_;
 };
 
 }  // namespace hmps::inline HMPS_ABI

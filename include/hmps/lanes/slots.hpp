@@ -7,8 +7,10 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/lanes/aligned_allocator.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/registers.hpp"
+#include "hmps/lanes/window.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -51,7 +53,7 @@ template <class T>
 
 /// `N` numbers per slot in the scalar type of the sweeps, stored as one array per component. Bonds read the numbers of
 /// neighbours with consecutive slots as one run of lanes. Each array has a margin of one block at both ends, so that a
-/// run that crosses an end needs no test.
+/// run that crosses an end needs no test, and is aligned as lanes are.
 template <class K, std::size_t N>
 class SlotArrays {
  public:
@@ -96,6 +98,19 @@ class SlotArrays {
     return {*this, first, second};
   }
 
+  /// The lanes that `places` picks from the two blocks that start at slot `first`, a multiple of `width`.
+  struct WindowRun {
+    const SlotArrays& arrays;
+    std::size_t first;
+    WindowPlaces<K> places;
+    [[nodiscard]] HMPS_INLINE Lanes<K> operator[](std::size_t component) const {
+      return places.pick(&arrays(component, first));
+    }
+  };
+  [[nodiscard]] HMPS_INLINE WindowRun window(std::size_t first, const WindowPlaces<K>& places) const {
+    return {*this, first, places};
+  }
+
   /// Prefetches all components of the lanes from `slot`. Does nothing beyond the last slot.
   HMPS_INLINE void prefetch(std::size_t slot) const {
     if (slot + 2 * margin >= pitch_) return;
@@ -111,7 +126,7 @@ class SlotArrays {
     return (lines | 1) * margin;
   }
   std::size_t pitch_ = 0;
-  std::vector<K> values_;
+  std::vector<K, AlignedAllocator<K>> values_;
 };
 
 }  // namespace detail

@@ -33,11 +33,11 @@ auto force_of(const Bonds& bonds) {
 
 /// A strained body that moves, far from its reference position.
 struct Body {
-  State X = scenes::box<3>({11, 6, 5}), x = X, v = X;
+  State X, x = X, v = X;
   Bonds bonds{hmps::vectors(X), {.spacing = l0}};
   State f = State(X.size(), Vector::Zero());
 
-  Body() {
+  explicit Body(State reference = scenes::box<3>({11, 6, 5})) : X(std::move(reference)) {
     scenes::Random random(7);
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int c = 0; c < 3; ++c) {
@@ -93,6 +93,22 @@ TEST(PartsOfALattice, HaveTheBitsOfTheWhole) {
   }
   for (const int part : {0, 1, 2}) EXPECT_EQ(differences(body, slabs, part, true, true), 0u) << "slab " << part;
   for (const int part : {0, 1}) EXPECT_EQ(differences(body, scattered, part, true, true), 0u) << "scattered " << part;
+}
+
+// The blocks of a thin wall have windows where the target reads them fast. Whether a block of a part has them depends
+// on the particles with which it shares the block.
+TEST(PartsOfALattice, HaveTheBitsOfTheWholeInThinWalls) {
+  const Eigen::Vector3d middle(10, 10, 0);
+  const Body body(scenes::lattice<3>({21, 21, 11}, [&](const auto& cell) {
+    const double radius = (cell.template cast<double>() - middle).norm();
+    return radius >= 7 && radius < 10;
+  }));
+  std::vector<int> wedges;
+  for (const Vector& X : body.X) {
+    const Vector away = X - body.X[0];
+    wedges.push_back(away[1] < 0.3 * away[0] ? 0 : away[1] < 0.6 * away[0] ? 1 : 2);
+  }
+  for (const int part : {0, 1, 2}) EXPECT_EQ(differences(body, wedges, part, true, true), 0u) << "wedge " << part;
 }
 
 // Without the axes or the displacement of the whole, parts round differently: this is what `axes` and
