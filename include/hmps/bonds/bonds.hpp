@@ -30,9 +30,8 @@ concept BondRow = requires(const Row& row, const Slots& slots) {
 /// Fails to compile if `Row` is not a row of bonds.
 template <class Row, class B>
 struct RequireRow {
-  static_assert(
-      BondRow<Row, typename B::template Slots<1>, typename B::Scalar>,
-      "hmps: a row of bonds needs gather(slots), offset(c), along(c), weight(), const; see Bonds");
+  static_assert(BondRow<Row, typename B::template Slots<1>, typename B::Scalar>,
+                "hmps: a row of bonds needs gather(slots), offset(c), along(c), weight(), const; see Bonds");
   static constexpr bool value = true;
 };
 }  // namespace detail
