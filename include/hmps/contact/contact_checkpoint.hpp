@@ -18,7 +18,7 @@ namespace hmps::inline HMPS_ABI {
 // The layout of a history: the number of memberships of particles in organs, that of pairs of a slave and a wall, and
 // that of positions; then the positions; then the entries of `ContactHistory`.
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 std::vector<double> MetaballContact<S, D, Kernel, Friction, Penalty>::history() const {
   const auto& organs = lists_.organs();
   std::vector<double> numbers{static_cast<double>(organs.members().size()), static_cast<double>(organs.slots()), 0};
@@ -30,7 +30,7 @@ std::vector<double> MetaballContact<S, D, Kernel, Friction, Penalty>::history() 
   return numbers;
 }
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::restore_history(std::span<const double> history) {
   constexpr std::size_t head = 3;
   const auto& organs = lists_.organs();

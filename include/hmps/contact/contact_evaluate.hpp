@@ -8,7 +8,7 @@
 namespace hmps::inline HMPS_ABI {
 
 /// Resizes the arrays to fit the current lists.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::resize() {
   const std::size_t row_count = lists_.active().rows().size() - 1, awake_count = lists_.active().awake().size() - 1;
   masters_.resize(awake_count);
@@ -26,7 +26,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::resize() {
 }
 
 /// Collects the position and velocity of each awake particle and computes its F_j^-1, one block of lanes at a time.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
@@ -69,7 +69,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const 
 }
 
 /// Throws for the first particle with an invalid position, velocity or deformation gradient.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::check_suspects(const X& x, const V& v, const G& F) const {
   for (std::size_t q = 0; q < suspect_.size(); ++q) {
@@ -84,7 +84,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::check_suspects(const X& x
 
 /// Evaluates row `r`. Returns whether its slave touches, and if so, sets its weights of \paper{41, 42}. Sets `depth` if
 /// the wall has lost the slave.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G>
 bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, const X& x, const V& v, const G& F,
                                                              S& depth) {
@@ -117,7 +117,7 @@ bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, cons
   return true;
 }
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<S>& report, double time) const {
   detail::require(report.lost_in < lists_.organs().organs().size(), "hmps: the report given to check names organ ",
                   report.lost_in, ", but this contact has ", lists_.organs().organs().size(),
@@ -132,7 +132,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<
 }
 
 /// Evaluates all rows, lists those that touch, and reports slaves that walls have lost.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V& v, const G& F,
                                                             ContactReport<S>& report, const E& execute) {
@@ -166,7 +166,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V&
 }
 
 /// Checks each organ once, in the first call after it was added.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x) {
   constexpr std::size_t fewest = 16, most_samples = 64;  // for fewer, distances say little
@@ -196,7 +196,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x)
   }
 }
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G, class E>
 ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const X& x, const V& v, const G& F, double dt,
                                                                           const E& execute) {

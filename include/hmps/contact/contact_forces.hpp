@@ -10,7 +10,7 @@ namespace hmps::inline HMPS_ABI {
 
 /// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it and, for `LinearPenalty`, if
 /// it is below 1 N/m4 and thus meant as a ratio. A law of your own may use its coefficient in any way.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffness& stiffness, double dt) const {
   const double k = is_linear ? stiffness.at(settings_.density, dt) : stiffness.coefficient(settings_.density, dt);
   detail::require(!is_linear || k >= 1, "hmps: the penalty coefficient k is ", k,
@@ -25,7 +25,7 @@ S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffne
 }
 
 /// Throws `InputError` if a particle that the contact may move is too light for the penalty of its pair at step `dt`.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <PerParticle Rho>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& rho, double dt) const {
   for (std::size_t p = 0; p < own_.size(); ++p) {
@@ -47,7 +47,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& 
 }
 
 /// Computes the laws of each pair for the step `dt`.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   laws_.resize(own_.size());
   for (std::size_t p = 0; p < own_.size(); ++p) {
@@ -59,7 +59,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
 
 /// Stores for each pair the largest stiffness of the law over the rows that touch. Throws `StateError` if it is
 /// unstable at step `dt`, and `InputError` if the force contradicts it.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt) {
   const double l0 = settings_.spacing;
   for (const Index r : touching_) {
@@ -85,7 +85,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt)
 }
 
 /// Computes the N of `CorrectedFriction` for every awake particle.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
   execute(load_.size(), [&](std::size_t t) {
@@ -101,7 +101,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
 }
 
 /// Computes the forces \paper{39, 40} of the rows that touch. Returns how many of these rows stick.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class E>
 std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, const E& execute) {
   const S rate = static_cast<S>(settings_.density / dt), spacing = static_cast<S>(settings_.spacing);
@@ -160,7 +160,7 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
 
 /// Updates the elastic slip of row `r` by the motion since the previous call. Returns the part of the wall's velocity
 /// at the slave (m/s) that \paper{31} omits: the part due to the wall's rotation.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 typename MetaballContact<S, D, Kernel, Friction, Penalty>::Point
 MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
   const auto& row = lists_.active().rows()[r];
@@ -189,7 +189,7 @@ MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
 }
 
 /// \paper{43}: each particle gathers the forces on it as a slave and the reactions \paper{41, 42} on it as a master.
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class Take, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::hand_out(const Take& take, const E& execute) const {
   execute(load_.size(), [&](std::size_t t) {
@@ -203,7 +203,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::hand_out(const Take& take
   });
 }
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 Vector<double, D> MetaballContact<S, D, Kernel, Friction, Penalty>::force_on_first(std::size_t pair) const {
   detail::require(pair < lists_.organs().pairs().size(), "hmps: there is no pair ", pair, ", only ",
                   lists_.organs().pairs().size(), " pairs, counted from 0");

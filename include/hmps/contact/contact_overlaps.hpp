@@ -7,7 +7,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-template <class S, int D, Metaball Kernel, FrictionLaw Friction, class Penalty>
+template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class G>
 std::vector<Overlap> MetaballContact<S, D, Kernel, Friction, Penalty>::find_overlaps(const X& x, const G& F) const {
   require_size(x, x.size(), "positions");

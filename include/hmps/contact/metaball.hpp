@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 
@@ -20,6 +21,19 @@ concept Metaball = requires(double s) {
   { Kernel::value(s) } -> std::convertible_to<double>;
   { Kernel::slope(s) } -> std::convertible_to<double>;
 };
+
+namespace detail {
+template <class Kernel>
+struct IsMetaball : std::bool_constant<Metaball<Kernel>> {};
+/// Fails to compile unless `Kernel` is a `Metaball`; the first line of the message names `Kernel`.
+template <class Kernel>
+struct RequireMetaball {
+  static_assert(IsMetaball<Kernel>::value,
+                "hmps: a metaball needs the constant radius in spacings, and value(s) and slope(s), static, of the "
+                "squared distance over the squared radius");
+  static constexpr bool value = true;
+};
+}  // namespace detail
 
 /// The paper's kernel, \paper{26}: c = 1 - (r / r_e)^2 with r_e = 1.75 l0; c(0) = 1. The gradient of the sum jumps
 /// where a particle enters r_e, so that a flat lattice wall is rough: at contact height its normal tilts by up to atan

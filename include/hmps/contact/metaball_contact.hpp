@@ -56,10 +56,12 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// Slaves with an undefined normal (deep inside) receive no force and are counted as deep; `check` reports them as an
 /// error.
-template <class S, int D, Metaball Kernel = SmoothMetaball, FrictionLaw Friction = CorrectedFriction,
+template <class S, int D, class Kernel = SmoothMetaball, class Friction = CorrectedFriction,
           class Penalty = LinearPenalty>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
+  static_assert(detail::RequireMetaball<Kernel>::value);
+  static_assert(detail::RequireFrictionLaw<Friction>::value);
   static_assert(detail::RequirePenaltyLaw<Penalty>::value);
   using Lists = detail::Candidates<S, D, Kernel>;
   using Point = Vector<S, D>;

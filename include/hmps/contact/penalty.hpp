@@ -133,6 +133,19 @@ concept FrictionLaw = requires(double load) {
   { Law::share(load) } -> std::convertible_to<double>;
 };
 
+namespace detail {
+template <class Law>
+struct IsFrictionLaw : std::bool_constant<FrictionLaw<Law>> {};
+/// Fails to compile unless `Law` is a `FrictionLaw`; the first line of the message names `Law`.
+template <class Law>
+struct RequireFrictionLaw {
+  static_assert(IsFrictionLaw<Law>::value,
+                "hmps: a friction law needs the constant needs_load, and share(load), static, the share of the "
+                "relative velocity that a sticking slave takes in one step");
+  static constexpr bool value = true;
+};
+}  // namespace detail
+
 /// The cap of \paper{40} as printed: the slave takes all of the relative velocity. Together with the
 /// reactions \paper{41, 42} and both roles of \paper{43} this over-corrects: a sticking pair of free
 /// particles has its relative tangential velocity multiplied by -3 in each step.
