@@ -85,28 +85,26 @@ class LatticeBonds : public Blocks<K, D> {
     return first == end ? block * width : static_cast<std::size_t>(std::max((end - 1)->first, 0));
   }
 
-  /// A row: at most one bond per lane of a block; r0 has nonzero components along `Axes` only (bit c for component c).
-  /// The neighbour of lane l is slot `first + l`, or `first + places[l]` in a `WindowRow`.
+  /// A row: at most one bond per lane of a block. The neighbour of lane l is slot `first + l`; r0 has nonzero
+  /// components along `Axes` only (bit c for component c).
   template <unsigned Axes>
-  struct OffsetRow {
+  struct Row {
     const K* r0;
     Lanes<K> w;
-
-    [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
-    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
-    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
-  };
-  template <unsigned Axes>
-  struct Row : OffsetRow<Axes> {
     std::ptrdiff_t first;
 
     template <std::size_t N>
     [[nodiscard]] HMPS_INLINE auto gather(const detail::SlotArrays<K, N>& slots) const {
       return slots.run(first);
     }
+    [[nodiscard]] HMPS_INLINE static constexpr bool along(int c) { return (Axes >> c & 1u) != 0; }
+    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
   };
-  template <unsigned Axes>
-  struct WindowRow : OffsetRow<Axes> {
+  /// The same for a neighbour at slot `first + places[l]` and any r0: one type for all axes, to compile in less time.
+  struct WindowRow {
+    const K* r0;
+    Lanes<K> w;
     std::size_t first;
     detail::WindowPlaces<K> places;
 
@@ -114,6 +112,9 @@ class LatticeBonds : public Blocks<K, D> {
     [[nodiscard]] HMPS_INLINE auto gather(const detail::SlotArrays<K, N>& slots) const {
       return slots.window(first, places);
     }
+    [[nodiscard]] HMPS_INLINE static constexpr bool along(int) { return true; }
+    [[nodiscard]] HMPS_INLINE K offset(int c) const { return r0[c]; }
+    [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
   };
 
   /// Calls `visit(row)` for each row of bonds of `block`, grouped by axes. Each set of axes has its own type of row, so
@@ -132,27 +133,25 @@ class LatticeBonds : public Blocks<K, D> {
     if (!rows_.has_windows(block))
       (for_each_run_along<Places>(block, visit), ...);
     else
-      (for_each_window_along<Places>(block, visit), ...);
+      for_each_window(block, visit);
   }
   template <unsigned Place, class Visit>
   HMPS_INLINE void for_each_run_along(std::size_t block, Visit& visit) const {
     const std::size_t group = block * directions + Place;
-    for (const auto *row = rows_.begin(group), *end = rows_.end(group); row != end; ++row)
-      visit(Row<Place + 1>{row_of<Place + 1>(*row), row->first});
+    for (const auto *row = rows_.begin(group), *end = rows_.end(group); row != end; ++row) {
+      const Offset& offset = offset_[row->offset];
+      visit(Row<Place + 1>{offset.r0, detail::spread(row->lanes, offset.w), row->first});
+    }
   }
-  template <unsigned Place, class Visit>
-  HMPS_INLINE void for_each_window_along(std::size_t block, Visit& visit) const {
-    const std::size_t group = block * directions + Place;
-    const auto *row = rows_.begin(group), *const end = rows_.end(group);
-    const auto* places = rows_.places(block) + (row - rows_.begin(block * directions));
-    for (; row != end; ++row, ++places)
-      visit(WindowRow<Place + 1>{row_of<Place + 1>(*row), static_cast<std::size_t>(row->first),
-                                 detail::WindowPlaces<K>(*places)});
-  }
-  template <unsigned Axes>
-  [[nodiscard]] HMPS_INLINE OffsetRow<Axes> row_of(const typename Rows::Row& row) const {
-    const Offset& offset = offset_[row.offset];
-    return {offset.r0, detail::spread(row.lanes, offset.w)};
+  template <class Visit>
+  HMPS_INLINE void for_each_window(std::size_t block, Visit& visit) const {
+    const auto* places = rows_.places(block);
+    const auto *row = rows_.begin(block * directions), *const end = rows_.begin((block + 1) * directions);
+    for (; row != end; ++row, ++places) {
+      const Offset& offset = offset_[row->offset];
+      visit(WindowRow{offset.r0, detail::spread(row->lanes, offset.w), static_cast<std::size_t>(row->first),
+                      detail::WindowPlaces<K>(*places)});
+    }
   }
 
   struct Offset {

@@ -230,13 +230,15 @@ class ForceSweeps {
     const auto displacement = bond.gather(displacement_);
     const T stretch = c + coupling[D * D];
     // The force of a bond is computed separately from the sum, so that bonds need not wait for each other.
-    int first = 0;  // axis with a component of r0
-    while (!bond.along(first)) ++first;
+    // A component of r0 that is zero changes no bit here, so that a row may or may not skip it.
     Vector<T, D> pull;
-    for (int row = 0; row < D; ++row)
-      pull[row] = detail::multiply_add(stretch, displacement[static_cast<std::size_t>(row)] - u[row],
-                                       coupling[static_cast<std::size_t>(row + D * first)] * bond.offset(first));
-    for (int col = first + 1; col < D; ++col)
+    for (int row = 0; row < D; ++row) {
+      const T relative = displacement[static_cast<std::size_t>(row)] - u[row];
+      pull[row] = bond.along(0) ? detail::multiply_add(stretch, relative,
+                                                       coupling[static_cast<std::size_t>(row)] * bond.offset(0))
+                                : stretch * relative;
+    }
+    for (int col = 1; col < D; ++col)
       if (bond.along(col))
         for (int row = 0; row < D; ++row)
           pull[row] =
