@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,6 +156,7 @@ class LatticeBonds : public Blocks<K, D> {
     K r0[std::size_t{D}];
     K w;
   };
+
   template <class T>
   [[nodiscard]] static detail::LatticeCells<D> checked_cells(const VectorView<T, D>& reference,
                                                              const BondSettings& settings) {
