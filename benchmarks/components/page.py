@@ -135,7 +135,7 @@ class Page:
                  f"{100 * self.runs[name]['lanes']:.0f} %", f"{100 * self.runs[f'step/box/{kind}/{PAPER}/1']['lanes']:.0f} %"]
                 for kind, name in thin]
         particles = thin[0][1].split("/")[3]
-        yield from words(f"In thin walls, few neighbours are consecutive: an offset takes several runs, or one window "
+        yield from words(f"In thin walls, few neighbours are consecutive: an offset takes several runs, and usually one window "
                          f"where the target picks lanes from two registers (AVX-512). At the faces, particles lack "
                          f"bonds, so that some lanes remain empty. The table is for half a hollow ball of "
                          f"{size(particles)} particles with a wall of three particles, on one thread.")

@@ -42,7 +42,7 @@ template <class T, int D>
 
 /// The bonds of particles on a simple cubic lattice in their reference configuration. All particles share the offsets
 /// r0 and weights w0 (\paper{8}). For each offset, a block of particles stores the runs of consecutive neighbours,
-/// eight bytes each, or windows from which neighbours are picked, eight bytes and one per lane each. Particles may
+/// eight bytes each, or windows from which neighbours are picked, eight bytes plus one per lane each. Particles may
 /// deviate from their sites by the rounding of the user's scalar type, up to a thousandth of the spacing; r0 is that of
 /// the lattice. Models `Bonds`.
 template <class K, int D>
@@ -115,8 +115,8 @@ class LatticeBonds : public Blocks<K, D> {
     [[nodiscard]] HMPS_INLINE const Lanes<K>& weight() const { return w; }
   };
 
-  /// Calls `visit(row)` for each row of bonds of `block`, grouped by axes. Each set of axes has its own type of row, so
-  /// that the compiler removes computations with zero components.
+  /// Calls `visit(row)` for each row of bonds of `block`, grouped by axes. In runs, each set of axes has its own type
+  /// of row, so that the compiler removes computations with zero components.
   template <class Visit>
   HMPS_INLINE void for_each_row(std::size_t block, Visit&& visit) const {
     for_each_row(block, visit, std::make_integer_sequence<unsigned, directions>{});
@@ -126,19 +126,19 @@ class LatticeBonds : public Blocks<K, D> {
   using Rows = detail::LatticeRows<K, D>;
   static constexpr unsigned directions = Rows::directions;
 
-  template <class Visit, unsigned... Places>
-  HMPS_INLINE void for_each_row(std::size_t block, Visit& visit, std::integer_sequence<unsigned, Places...>) const {
+  template <class Visit, unsigned... Directions>
+  HMPS_INLINE void for_each_row(std::size_t block, Visit& visit, std::integer_sequence<unsigned, Directions...>) const {
     if (!rows_.has_windows(block))
-      (for_each_run_along<Places>(block, visit), ...);
+      (for_each_run_along<Directions>(block, visit), ...);
     else
       for_each_window(block, visit);
   }
-  template <unsigned Place, class Visit>
+  template <unsigned Direction, class Visit>
   HMPS_INLINE void for_each_run_along(std::size_t block, Visit& visit) const {
-    const std::size_t group = block * directions + Place;
+    const std::size_t group = block * directions + Direction;
     for (const auto *row = rows_.begin(group), *end = rows_.end(group); row != end; ++row) {
       const Offset& offset = offset_[row->offset];
-      visit(Row<Place + 1>{offset.r0, detail::spread(row->lanes, offset.w), row->first});
+      visit(Row<Direction + 1>{offset.r0, detail::spread(row->lanes, offset.w), row->first});
     }
   }
   template <class Visit>

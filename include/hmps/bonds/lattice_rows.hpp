@@ -19,8 +19,8 @@ namespace hmps::inline HMPS_ABI::detail {
 /// The rows of bonds of a `LatticeBonds`. The rows of a block are sorted into groups, one for each set of axes along
 /// which the offset of a bond may lie, and within a group by offset. In most blocks each row is a run of consecutive
 /// neighbours. In thin walls and other bodies whose lattice rows are short, an offset takes several runs; if a target
-/// reads windows fast, such a block has rows that pick their neighbours from a window, one or two for each offset. Both
-/// give a particle its bonds in the same order.
+/// reads windows fast, such a block has rows that pick their neighbours from a window, usually one for each offset.
+/// Both give a particle its bonds in the same order.
 template <class K, int D>
 class LatticeRows {
  public:
@@ -44,11 +44,11 @@ class LatticeRows {
   };
 
   LatticeRows() = default;
-  /// Stores `placed`, runs that are sorted by offset, of `blocks` blocks. Throws `InputError` for too many.
+  /// Stores `placed`, the runs of `blocks` blocks, sorted by offset and then by slot. Throws `InputError` for too many.
   LatticeRows(const std::vector<Placed>& placed, std::size_t blocks, bool windows = windows_are_fast)
-      : group_(blocks * directions + 1, 0), first_places_(blocks, runs) {
-    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", blocks * width,
-            " particles make ", placed.size(), " runs, more than can be numbered; divide the body");
+      : group_(blocks * directions + 1, 0), first_places_(blocks, no_windows) {
+    require(placed.size() < std::numeric_limits<std::uint32_t>::max(), "hmps: the bonds of ", blocks,
+            " blocks of particles make ", placed.size(), " runs, more than can be numbered; divide the body");
     for (const Placed& p : placed) ++group_[p.group + 1];
     std::partial_sum(group_.begin(), group_.end(), group_.begin());
     rows_.resize(placed.size());
@@ -60,7 +60,7 @@ class LatticeRows {
   [[nodiscard]] HMPS_INLINE const Row* begin(std::size_t group) const { return rows_.data() + group_[group]; }
   [[nodiscard]] HMPS_INLINE const Row* end(std::size_t group) const { return rows_.data() + group_[group + 1]; }
   /// Whether the rows of `block` pick their neighbours from windows.
-  [[nodiscard]] HMPS_INLINE bool has_windows(std::size_t block) const { return first_places_[block] != runs; }
+  [[nodiscard]] HMPS_INLINE bool has_windows(std::size_t block) const { return first_places_[block] != no_windows; }
   /// The places of the neighbours of the first row of a block with windows; those of the other rows follow.
   [[nodiscard]] HMPS_INLINE const Places* places(std::size_t block) const {
     return places_.data() + first_places_[block];
@@ -114,14 +114,14 @@ class LatticeRows {
   /// Appends the rows with windows that replace the runs of `group`. The runs of an offset are sorted by lane, and so
   /// are their neighbours by slot.
   void merge_group(std::size_t group, std::vector<Row>& merged, std::vector<Places>& places) const {
-    constexpr auto block = static_cast<std::int32_t>(width);
+    constexpr auto lanes = static_cast<std::int32_t>(width);
     bool open = false;
     for (const Row* run = begin(group); run != end(group); ++run)
       for (std::size_t l = 0; l < width; ++l) {
         if ((run->lanes >> l & 1u) == 0) continue;
         const std::int32_t neighbour = run->first + static_cast<std::int32_t>(l);
-        if (!open || merged.back().offset != run->offset || neighbour - merged.back().first >= 2 * block) {
-          merged.push_back({neighbour / block * block, 0, run->offset});
+        if (!open || merged.back().offset != run->offset || neighbour - merged.back().first >= 2 * lanes) {
+          merged.push_back({neighbour / lanes * lanes, 0, run->offset});
           places.push_back({});
           open = true;
         }
@@ -130,12 +130,12 @@ class LatticeRows {
       }
   }
 
-  static constexpr std::uint32_t runs = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t no_windows = std::numeric_limits<std::uint32_t>::max();
 
   std::vector<Row> rows_;
   std::vector<std::uint32_t> group_;         ///< First row of each group.
   std::vector<Places> places_;               ///< One entry per row with a window.
-  std::vector<std::uint32_t> first_places_;  ///< Of each block: index into places_, or `runs`.
+  std::vector<std::uint32_t> first_places_;  ///< Of each block: index into places_, or `no_windows`.
 };
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -5,14 +5,14 @@
 #include "hmps/core/inline.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/registers.hpp"
-#if defined(__FMA__)
+#if defined(__FMA__) || defined(__AVX512F__)
 #include <immintrin.h>
 #endif
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// a b + c. If the target has an instruction for it, it is used, so that the bits do not depend on the code around it:
-/// in a sum of two products, each compiler fuses one or the other, from case to case.
+/// a b + c. With AVX2 and FMA, or AVX-512, it is one instruction, so that the bits do not depend on the code around it:
+/// in a sum of two products, a compiler fuses one or the other, from case to case. On other targets it still may.
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> multiply_add(const Lanes<T>& a, const Lanes<T>& b, const Lanes<T>& c) {
 #if defined(HMPS_EACH_REGISTER)

@@ -16,7 +16,7 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Whether the target picks lanes from two registers with one instruction, so that reading a window takes less time
-/// than reading several runs.
+/// than reading several runs. Bonds that a program with AVX-512 makes work in one without, but slowly.
 #if defined(__AVX512F__)
 inline constexpr bool windows_are_fast = true;
 #else

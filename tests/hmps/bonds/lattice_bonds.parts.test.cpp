@@ -11,6 +11,7 @@
 
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/internal_force.hpp"
+#include "hmps/lanes/window.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
@@ -95,14 +96,19 @@ TEST(PartsOfALattice, HaveTheBitsOfTheWhole) {
   for (const int part : {0, 1}) EXPECT_EQ(differences(body, scattered, part, true, true), 0u) << "scattered " << part;
 }
 
-// The blocks of a thin wall have windows where the target reads them fast. Whether a block of a part has them depends
-// on the particles with which it shares the block.
+// Half a hollow ball on a plate. Where the target reads windows fast, the blocks of the ball have windows and those of
+// the plate have runs. The parts cut the plate obliquely, so that its blocks have windows there.
 TEST(PartsOfALattice, HaveTheBitsOfTheWholeInThinWalls) {
-  const Eigen::Vector3d middle(10, 10, 0);
-  const Body body(scenes::lattice<3>({21, 21, 11}, [&](const auto& cell) {
+  const Eigen::Vector3d middle(10, 10, 3);
+  const Body body(scenes::lattice<3>({21, 21, 14}, [&](const auto& cell) {
     const double radius = (cell.template cast<double>() - middle).norm();
-    return radius >= 7 && radius < 10;
+    return cell[2] < 3 || (radius >= 7 && radius < 10);
   }));
+  std::size_t runs = 0, windows = 0;
+  for (std::size_t block = 0; block < body.bonds.block_count(); ++block)
+    body.bonds.for_each_row(block, [&](const auto& row) { ++(requires { row.places; } ? windows : runs); });
+  EXPECT_GT(runs, 0u);
+  EXPECT_EQ(windows > 0, hmps::detail::windows_are_fast);
   std::vector<int> wedges;
   for (const Vector& X : body.X) {
     const Vector away = X - body.X[0];
