@@ -140,8 +140,8 @@ def page(m, held, compiler, includes):
                      "checks the bounds below, by counts and not by times.")
     yield from words("The cost of a step of about 1,000 particles (10 x 10 x 10, in two dimensions 32 x 32), in double "
                      "unless stated otherwise, on one core. Instructions are counted by callgrind, for code compiled with "
-                     "`-O2 -ftree-vectorize -mavx2 -mfma`, and include kick and drift; bytes are what the components keep on the heap, "
-                     "without the user's own state.")
+                     "`-O2 -ftree-vectorize -mavx2 -mfma`, and include kick and drift; bytes are what the "
+                     "components keep on the heap, without the user's own state.")
     yield from table(["Scene", "Instructions per particle and step", "Bytes per particle"],
                      [[text, f"{m[scene]['instructions']:,.0f}", f"{m[scene]['bytes']:.0f}"]
                       for scene, text in SCENES.items()])
