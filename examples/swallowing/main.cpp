@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../common/files.hpp"
@@ -18,6 +19,7 @@
 #include "options.hpp"
 #include "output/comparison.hpp"
 #include "output/fingerprint.hpp"
+#include "output/fitted_file.hpp"
 #include "output/mechanisms.hpp"
 #include "output/pictures.hpp"
 #include "output/progress.hpp"
@@ -67,6 +69,18 @@ void compare_cases(const Options& options) {
     draw_outlines(out / "outlines.png", {{{"X1", out / "X1" / "snapshots"}, {"Y1", out / "Y1" / "snapshots"}}});
 }
 
+/// The particles of all cases: those of the run that is resumed, or a new fit, which is kept in the output folder.
+FittedOrgans fitted_organs(const Options& options) {
+  const std::filesystem::path out(options.out);
+  const examples::FolderLock lock(out, examples::FolderLock::Taken::wait);
+  if (options.resume)
+    if (auto fitted = read_fitted(out, options.spacing)) return *std::move(fitted);
+  std::cerr << "fitting particles to the organs\n";
+  FittedOrgans fitted = fit_organs(options.spacing, options.threads);
+  write_fitted(out, fitted, options.spacing);
+  return fitted;
+}
+
 /// Runs the cases, as many at a time as there are threads: cases need not wait for each other, whereas the threads of
 /// one case do so several times in a step. Returns whether all cases reached their end.
 bool run_cases(const Options& options) {
@@ -76,10 +90,7 @@ bool run_cases(const Options& options) {
   one.bar = options.bar && workers == 1;
 
   std::optional<FittedOrgans> fitted;
-  if (options.fitted) {
-    std::cerr << "fitting particles to the organs\n";
-    fitted = fit_organs(options.spacing, options.threads);
-  }
+  if (options.fitted) fitted = fitted_organs(options);
 
   std::atomic<std::size_t> next = 0;
   std::mutex reporting;

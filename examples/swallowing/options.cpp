@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <hmps/executors/openmp.hpp>
+#include <iterator>
 #include <ostream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "../common/arguments.hpp"
 
@@ -19,10 +21,24 @@ std::filesystem::path data_folder(const Options& options) {
   return options.data.empty() ? SWALLOWING_DATA : options.data;
 }
 
+namespace {
+
+/// The chosen of all cases, in their order, each once; all if none is chosen or "all" is among them.
+std::vector<std::string> chosen_of(const std::vector<std::string>& all, const std::vector<std::string>& chosen) {
+  const auto is_chosen = [&](const std::string& name) { return std::count(chosen.begin(), chosen.end(), name) > 0; };
+  if (chosen.empty() || is_chosen("all")) return all;
+  std::vector<std::string> cases;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(cases), is_chosen);
+  return cases;
+}
+
+}  // namespace
+
 std::optional<Options> parse_options(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
                                      int& exit_code) {
   Options options;
-  std::string chosen = "all", contact = "smooth", particles = "lattice", scalar, quality(default_quality.name);
+  std::vector<std::string> chosen;
+  std::string contact = "smooth", particles = "lattice", scalar, quality(default_quality.name);
   bool without_h = false, no_frames = false;
   CLI::App app(
       "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
@@ -32,7 +48,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   app.get_formatter()->column_width(30);
   const auto number = [](CLI::Option* option, const char* unit) { return option->type_name(unit); };
 
-  app.add_option("--case", chosen, "X1, X3, Y1, Y3 or all (default: all)")
+  app.add_option("--case", chosen, "one or more of X1, X3, Y1 and Y3, or all (default: all)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"X1", "X3", "Y1", "Y3", "all"}));
   std::vector<std::string> names;
@@ -123,7 +139,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   exit_code = 0;
   try {
     app.parse(argc, argv);
-    if (chosen != "all") options.cases = {chosen};
+    options.cases = chosen_of(options.cases, chosen);
     options.fitted = particles == "fitted";
     if (options.fitted && !shift->empty())
       throw CLI::ValidationError(shift->get_name(), "fitted particles do not lie on a lattice that could be shifted");

@@ -89,6 +89,14 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(parse({"--stiffness", "0.8"}).options->stiffness, 0.8);
 }
 
+TEST(Options, CasesAreRunInTheirOrderEachOnce) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(parse({"--case", "Y1", "X1"}).options->cases, (Names{"X1", "Y1"}));
+  EXPECT_EQ(parse({"--case", "Y1", "--case", "X3", "--case", "Y1"}).options->cases, (Names{"X3", "Y1"}));
+  EXPECT_EQ(parse({"--case", "X1", "all"}).options->cases, (Names{"X1", "X3", "Y1", "Y3"}));
+  EXPECT_FALSE(parse({"--case", "X1", "Z9"}).options);
+}
+
 TEST(Options, TheContactOfThePaperHasItsPenalty) {
   EXPECT_FALSE(parse({}).options->paper_contact);
   EXPECT_FALSE(parse({"--contact", "smooth"}).options->penalty_ratio);

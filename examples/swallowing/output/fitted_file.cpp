@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "output/fitted_file.hpp"
+
+#include <cstddef>
+#include <span>
+
+#include "output/checkpoint.hpp"
+
+namespace swallowing {
+
+namespace {
+
+constexpr const char* file_name = "fitted.bin";
+
+[[nodiscard]] std::span<double> coordinates(std::vector<Point>& points) {
+  return {points.empty() ? nullptr : points[0].data(), 3 * points.size()};
+}
+
+}  // namespace
+
+void write_fitted(const std::filesystem::path& out, const FittedOrgans& fitted, double spacing) {
+  auto positions = fitted.particles.positions;
+  Checkpoint file;
+  file.set("spacing", spacing);
+  file.set("positions", coordinates(positions));
+  file.set("volumes", fitted.particles.volumes);
+  file.set("layers", fitted.particles.layers);
+  file.set("layer spacings", fitted.particles.layer_spacings);
+  file.set("depth", fitted.depth);
+  file.save(out / file_name);
+}
+
+std::optional<FittedOrgans> read_fitted(const std::filesystem::path& out, double spacing) {
+  const auto file = Checkpoint::load(out / file_name);
+  if (!file || file->value<double>("spacing") != spacing) return std::nullopt;
+  FittedOrgans fitted;
+  fitted.depth = file->get<double>("depth");
+  const std::size_t n = fitted.depth.size();
+  auto& particles = fitted.particles;
+  particles.positions.resize(n);
+  particles.volumes.resize(n);
+  particles.layers.resize(n);
+  particles.layer_spacings.resize(n);
+  auto positions = coordinates(particles.positions);
+  file->get("positions", positions);
+  file->get("volumes", particles.volumes);
+  file->get("layers", particles.layers);
+  file->get("layer spacings", particles.layer_spacings);
+  return fitted;
+}
+
+}  // namespace swallowing
