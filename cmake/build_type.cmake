@@ -9,5 +9,5 @@ function(hmps_tell_build_type)
   endif()
   set_property(GLOBAL PROPERTY HMPS_BUILD_TYPE_TOLD ON)
   message(STATUS "hmps: no build type is set, so the compiler does not optimise, and the sweeps over particles take "
-                 "two hundred times as long: configure with -D CMAKE_BUILD_TYPE=Release")
+                 "250 times as long: configure with -D CMAKE_BUILD_TYPE=Release")
 endfunction()

@@ -14,13 +14,7 @@ using Fit = hmps::FittedParticles<double, 3>;
 /// The particles of several fits, in their order.
 [[nodiscard]] inline Fit joined(const std::vector<Fit>& pieces) {
   Fit all;
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  for (const Fit& piece : pieces) {
-    append(all.positions, piece.positions);
-    append(all.volumes, piece.volumes);
-    append(all.layers, piece.layers);
-    append(all.layer_spacings, piece.layer_spacings);
-  }
+  for (const Fit& piece : pieces) all.append(piece);
   return all;
 }
 

@@ -86,7 +86,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
                                "the number of threads must lie between 1 and " +
                                    std::to_string(hmps::OpenMP::most_threads()) +
                                    ", four for each processor here: more would only wait for each other"));
-  app.add_option("--out", options.out, "output folder (default: results)")->type_name("DIR");
+  app.add_option("--out", options.out,
+                 "output folder (default: results; of `run`: results/swallowing of the repository)")
+      ->type_name("DIR");
   app.add_flag("--resume", options.resume,
                "continue from the last checkpoints in the output folder; results are identical to the bit. The motion "
                "of --data may differ from that of the checkpoint in what is to come");

@@ -82,6 +82,7 @@
 #include "hmps/diagnostics/stress.hpp"
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/force_energy.hpp"
+#include "hmps/force/force_stress.hpp"
 #include "hmps/force/force_function.hpp"
 #include "hmps/force/force_sweeps.hpp"
 #include "hmps/force/internal_force.hpp"

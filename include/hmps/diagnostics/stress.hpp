@@ -8,20 +8,21 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/diagnostics/energy.hpp"
 #include "hmps/diagnostics/recorded.hpp"
+#include "hmps/force/force_stress.hpp"
 #include "hmps/laws/law.hpp"
 
 /// Stress for output, from deformation gradients and the law: `cauchy_stress` and `von_mises_stress` for one particle,
 /// the same names in the plural for all particles. The first Piola-Kirchhoff stress of one particle is
-/// `first_piola_kirchhoff`. It is the stress of the law alone, without what `artificial`, `viscous` and
-/// `mean_dilatation` add to the force.
-/// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 5;
-/// Holzapfel, Nonlinear Solid Mechanics, 2000, chapter 3.
+/// `first_piola_kirchhoff`. It is the stress of the law alone. **In a force with `mean_dilatation`, most of the
+/// pressure is missing**, because the law has only its own share of the bulk modulus: use
+/// `InternalForce::cauchy_stresses`, which adds the rest. The von Mises stress does not depend on pressure. References:
+/// Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 5; Holzapfel,
+/// Nonlinear Solid Mechanics, 2000, chapter 3.
 namespace hmps::inline HMPS_ABI {
 
 /// The three-dimensional deformation gradient of one in the plane, with F33 = 1.
@@ -66,21 +67,6 @@ template <class Law, class T, int D>
 
 namespace detail {
 
-/// Throws `StateError` at the first particle whose `values`, called `name`, are not finite.
-template <class R, int N, class T, int D>
-void require_finite_result(const View<R, N>& values, const MatrixView<T, D>& F, const char* name) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    bool finite = true;
-    for (int c = 0; c < N; ++c) finite = finite && is_finite(values(i, c));
-    if (finite) continue;
-    const Matrix<double, D> gradient = F[i].template cast<double>();
-    throw StateError(message("hmps: the ", name, " of particle ", i, " is not finite; its deformation gradient has ",
-                             "det F = ", determinant(gradient),
-                             ": if that is not positive, the particle is crushed or turned inside out; use a "
-                             "smaller step, or wrap the law as Continued{law}"));
-  }
-}
-
 /// Writes `value(law, F)` of every particle, computed in double, to `stress`, called `name`. Throws as
 /// `cauchy_stresses` does.
 template <class T, int D, class Material, class R, int N, class Value, class E>
@@ -98,12 +84,13 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
     else
       MatrixView<R, D>(stress).set(i, result);
   });
-  require_finite_result(stress, F, name);
+  require_finite_result<D>(stress, F, name);
 }
 
 }  // namespace detail
 
-/// Writes the Cauchy stress in Pa of every particle, see `cauchy_stress`, computed in double precision.
+/// Writes the Cauchy stress in Pa of every particle, see `cauchy_stress`, computed in double precision: that of the law
+/// alone, without the pressure of `mean_dilatation`, which `InternalForce::cauchy_stresses` includes.
 ///
 /// @param F         deformation gradients, \paper{11}
 /// @param material  a law, or a callable of `OneParticle` that returns the law of each particle
@@ -118,8 +105,8 @@ void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const 
       [](const auto& law, const Matrix<double, D>& gradient) { return cauchy_stress(law, gradient); }, execute);
 }
 
-/// Writes the first Piola-Kirchhoff stress P = dW/dF in Pa of every particle, force per reference area, \paper{7}.
-/// Parameters and errors are those of `cauchy_stresses`.
+/// Writes the first Piola-Kirchhoff stress P = dW/dF in Pa of every particle, force per reference area, \paper{7}, in
+/// the same way. Parameters and errors are those of `cauchy_stresses`.
 template <class T, int D, class Material, class R, Executor E = Serial>
 void first_piola_kirchhoff_stresses(const MatrixView<T, D>& F, const Material& material, const MatrixView<R, D>& stress,
                                     const E& execute = {}) {

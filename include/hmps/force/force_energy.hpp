@@ -36,10 +36,11 @@ struct ForceEnergy {
   [[nodiscard]] double total() const { return std::accumulate(of_term.begin(), of_term.end(), 0.0); }
 };
 
-/// One particle, in double, as the argument of the energy of a term: `term.energy(particle)` is an energy per reference
-/// volume in J/m3. Like any `OneParticle` it returns parameters, `particle(view)`. A `PairTerm` instead has
-/// `term.energy(bond)`, of a `BondState<double, D>`, whose derivative with respect to |r| is the tension; each bond
-/// counts once.
+/// One particle, in double, as the argument of what a term returns for output: `term.energy(particle)` is an energy per
+/// reference volume in J/m3, `term.stress(particle)` a first Piola-Kirchhoff stress in Pa, and
+/// `term.pressure(particle)` of a `DilatationTerm` is dU/dtheta in Pa. Like any `OneParticle` it returns parameters,
+/// `particle(view)`. A `PairTerm` instead has `term.energy(bond)`, of a `BondState<double, D>`, whose derivative with
+/// respect to |r| is the tension; each bond counts once.
 template <Bonds B>
 class ParticleState : public OneParticle {
  public:
@@ -119,27 +120,56 @@ template <class Term, Bonds B>
   return sum;
 }
 
+/// The mean of `values` over each particle and its neighbours, as in `MeanDilatation`, taken `means` times.
+template <Bonds B, class E>
+[[nodiscard]] std::vector<double> neighbourhood_means(const B& bonds, std::vector<double> values,
+                                                      const typename B::template Slots<1>& scales, int means,
+                                                      const E& execute) {
+  const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
+  std::vector<double> mean(bonds.size());
+  for (int pass = 0; pass < means; ++pass) {
+    execute(bonds.size(), [&](std::size_t i) {
+      double sum = volume_share(bonds, i) * scale(i) * values[i];
+      bonds.for_each_bond(
+          i, [&](std::size_t j, const auto&, auto) { sum += volume_share(bonds, j) * scale(j) * values[j]; });
+      mean[i] = scale(i) * sum;
+    });
+    std::swap(values, mean);
+  }
+  return values;
+}
+
 /// theta of `MeanDilatation` of each particle, from the deformation gradients `F`; the mean is taken `means` times.
 template <Bonds B, class Gradients, class E>
 [[nodiscard]] std::vector<double> mean_dilatations(const B& bonds, const Gradients& F,
                                                    const typename B::template Slots<1>& scales, int means,
                                                    const E& execute) {
-  const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
-  std::vector<double> theta(bonds.size()), mean(bonds.size());
+  std::vector<double> dilatation(bonds.size());
   execute(bonds.size(), [&](std::size_t i) {
-    theta[i] = determinant(Matrix<double, B::dimension>(F[i].template cast<double>())) - 1;
+    dilatation[i] = determinant(Matrix<double, B::dimension>(F[i].template cast<double>())) - 1;
   });
-  for (int pass = 0; pass < means; ++pass) {
-    execute(bonds.size(), [&](std::size_t i) {
-      double sum = volume_share(bonds, i) * scale(i) * theta[i];
-      bonds.for_each_bond(
-          i, [&](std::size_t j, const auto&, auto) { sum += volume_share(bonds, j) * scale(j) * theta[j]; });
-      mean[i] = scale(i) * sum;
-    });
-    std::swap(theta, mean);
-  }
-  return theta;
+  return neighbourhood_means(bonds, std::move(dilatation), scales, means, execute);
 }
+
+/// The state of a body in double, from which the energies and stresses of its terms follow.
+template <Bonds B>
+struct BodyState {
+  /// At the positions `x`; with `scales`, those of the mean dilatation, which is taken `means` times.
+  template <class X, class E>
+  BodyState(const B& all_bonds, const VectorView<X, B::dimension>& x, const typename B::template Slots<1>* scales,
+            int means, const E& execute)
+      : bonds(all_bonds), positions(all_bonds.size()), F(all_bonds.size()) {
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = x[i].template cast<double>();
+    deformation_gradient(bonds, x, matrices(F), execute);
+    if (scales != nullptr) theta = mean_dilatations(bonds, F, *scales, means, execute);
+  }
+  [[nodiscard]] ParticleState<B> particle(std::size_t i) const { return {i, bonds, positions, F, theta}; }
+
+  const B& bonds;
+  typename ParticleState<B>::Vectors positions;
+  typename ParticleState<B>::Gradients F;
+  std::vector<double> theta;  ///< empty without scales
+};
 
 /// The energies of `terms` at the positions `x`; see `InternalForce::energy`.
 template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
@@ -148,18 +178,13 @@ template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
                                                      const VectorView<X, B::dimension>& x, const Vol& volume,
                                                      const E& execute) {
   constexpr std::size_t N = sizeof...(Terms);
-  std::vector<Vector<double, B::dimension>> positions(bonds.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = x[i].template cast<double>();
-  std::vector<Matrix<double, B::dimension>> F(bonds.size());
-  deformation_gradient(bonds, x, matrices(F), execute);
   constexpr int means = PartsOfForce<typename B::Scalar, B::dimension, Terms...>::means;
-  std::vector<double> theta;
-  if (scales != nullptr) theta = mean_dilatations(bonds, F, *scales, means, execute);
+  const BodyState<B> body(bonds, x, scales, means, execute);
   using Energies = std::array<double, N>;
   const Energies sum = reduce(
       bonds.size(), Energies{},
       [&](std::size_t i) {
-        const ParticleState<B> particle(i, bonds, positions, F, theta);
+        const ParticleState<B> particle = body.particle(i);
         const auto own = static_cast<double>(at_particle(volume, i));
         return std::apply([&](const auto&... term) { return Energies{own * energy_of_term(term, particle)...}; },
                           terms);

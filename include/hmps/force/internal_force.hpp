@@ -16,6 +16,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/force/force_energy.hpp"
+#include "hmps/force/force_stress.hpp"
 #include "hmps/force/force_sweeps.hpp"
 #include "hmps/force/restricted_blocks.hpp"
 #include "hmps/lanes/staging.hpp"
@@ -140,9 +141,29 @@ class InternalForce {
     require_positive(volume, now.size(), "volume", "m3");
     if (now.size() > 0) require_volume(now, detail::mean_of(volume, now.size()));
     detail::require_volumes_of(now, volume);
-    const typename B::template Slots<1>* scales = nullptr;
-    if constexpr (dilates) scales = &sweeps_.scales();
-    return detail::energies(now, sweeps_.terms(), scales, x, volume, execute);
+    return detail::energies(now, sweeps_.terms(), scales(), x, volume, execute);
+  }
+
+  /// WRITES the Cauchy stress in Pa of every particle at positions `x` (m) to `stress`, column-major: what the law and
+  /// the mean dilatation of this force resist with together, in double. `cauchy_stresses` of a law alone lacks the
+  /// pressure of the mean dilatation, which may be most of it. `artificial`, `viscous` and pair terms have no stress of
+  /// a single particle, nor has a term of your own without `stress(particle)`: see `ParticleState`. In two dimensions
+  /// it is the part in the plane. Ignores `restrict_to`. Throws `InputError` for views of the wrong size, and
+  /// `StateError`, naming the particle, if a stress is not finite.
+  template <class X, class R, Executor E = Serial>
+  void cauchy_stresses(const VectorView<X, D>& x, const MatrixView<R, D>& stress, const E& execute = {}) const {
+    write_stresses(x, stress, "Cauchy stress", execute, [](const Matrix<double, D>& P, const Matrix<double, D>& F) {
+      return Matrix<double, D>(P * F.transpose() / determinant(F));
+    });
+  }
+
+  /// WRITES the first Piola-Kirchhoff stress of every particle, dW/dF in Pa, in the same way. The sum over particles of
+  /// V P : dF is the change of the energies of those terms, without `artificial`, for any displacement.
+  template <class X, class R, Executor E = Serial>
+  void first_piola_kirchhoff_stresses(const VectorView<X, D>& x, const MatrixView<R, D>& stress,
+                                      const E& execute = {}) const {
+    write_stresses(x, stress, "first Piola-Kirchhoff stress", execute,
+                   [](const Matrix<double, D>& P, const Matrix<double, D>&) { return P; });
   }
 
   /// The bonds at their current address. Throws `InputError` if they no longer exist.
@@ -158,6 +179,26 @@ class InternalForce {
     const double length = std::sqrt(bonds.standard_lambda()), share = volume / std::pow(length, D);
     detail::require(share < most && share > 1 / most, "hmps: the volume of a particle is ", volume, " m", D,
                     ", but bonds are ", length, " m long; give l0^", D, " of the spacing l0");
+  }
+  /// The scales of the mean dilatation; null if no term has one.
+  [[nodiscard]] const typename B::template Slots<1>* scales() const {
+    if constexpr (dilates)
+      return &sweeps_.scales();
+    else
+      return nullptr;
+  }
+  template <class X, class R, class E, class Measure>
+  void write_stresses(const VectorView<X, D>& x, const MatrixView<R, D>& stress, const char* name, const E& execute,
+                      const Measure& measure) const {
+    static_assert(!std::is_const_v<R>, "hmps: the stresses are written; give a writable view of them");
+    const B& now = bonds();
+    require_size(x, now.size(), "positions");
+    require_size(stress, now.size(), "stresses");
+    require_apart(stress, "stresses", x, "positions");
+    const detail::BodyState<B> body(now, x, scales(), Sweeps::means, execute);
+    const auto P = detail::stresses(body, sweeps_.terms(), scales(), execute);
+    execute(now.size(), [&](std::size_t i) { stress.set(i, measure(P[i], body.F[i])); });
+    detail::require_finite_result<D>(stress, body.F, name);
   }
   template <class X, class V>
   void require_sizes(const VectorView<X, D>& x, const VectorView<V, D>& v) const {

@@ -49,6 +49,18 @@ struct FittedParticles {
   double largest_distance = 0;
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
+
+  /// Appends the particles of another part of the body that was fitted separately with the same spacing, such as the
+  /// piece by which it is held.
+  void append(const FittedParticles& part) {
+    const auto add = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
+    add(positions, part.positions);
+    add(volumes, part.volumes);
+    add(layers, part.layers);
+    add(layer_spacings, part.layer_spacings);
+    iterations = std::max(iterations, part.iterations);
+    largest_distance = std::max(largest_distance, part.largest_distance);
+  }
 };
 
 /// Returns particles fitted to the surface of a body at any orientation: those of the outermost layer lie half a layer

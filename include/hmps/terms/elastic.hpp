@@ -102,6 +102,11 @@ struct Elastic {
   [[nodiscard]] double energy(const Particle& particle) const {
     return static_cast<double>(energy_density(detail::value_at(law, particle), particle.deformation_gradient));
   }
+  /// P = dW/dF in Pa, \paper{7}.
+  template <class Particle>
+  [[nodiscard]] Matrix<double, Particle::dimension> stress(const Particle& particle) const {
+    return first_piola_kirchhoff(detail::value_at(law, particle), particle.deformation_gradient);
+  }
 };
 
 /// The elastic force of a body made of `law`, \paper{13}, as a term of `internal_force`. Throws `InputError` for a law

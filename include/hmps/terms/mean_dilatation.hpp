@@ -65,6 +65,12 @@ struct MeanDilatation {
     return static_cast<double>(detail::value_at(bulk, particle)) * 0.5 * theta * theta;
   }
 
+  /// U'(theta) in Pa.
+  template <class Particle>
+  [[nodiscard]] double pressure(const Particle& particle) const {
+    return static_cast<double>(detail::value_at(bulk, particle)) * particle.mean_dilatation();
+  }
+
   /// Throws `InputError` if the bulk modulus is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(bulk, size, "bulk moduli of mean_dilatation"); }
   /// Throws `InputError` for a bulk modulus that is negative or not finite.

@@ -114,8 +114,8 @@ class FittedWalls {
 ///
 ///     const auto fitted = fit_particles(shape, box, l0);
 ///     const auto [E_hat, bulk] = thin_wall_stabiliser(fitted.layers, fitted.layer_spacings, l0, K, mu);
-///     internal_force(bonds, elastic(MooneyRivlin<>::from_young(E, bulk.law / 2)), mean_dilatation<2>(bulk.mean),
-///                    artificial([&](const auto& at) { return at(scalars(E_hat)); }))
+///     internal_force(bonds, elastic(MooneyRivlin<>::from_moduli(bulk.law, mu)), mean_dilatation<2>(bulk.mean),
+///                    artificial(scalars(E_hat)))
 ///
 /// The choice is derived, not calibrated on bodies. A wall of thickness t with the twist kappa has the energy
 /// mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial,

@@ -3,8 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
+
+#include "hmps/analysis/relaxation.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/neo_hookean.hpp"
+#include "hmps/terms/artificial.hpp"
+#include "hmps/terms/elastic.hpp"
+#include "hmps/terms/gravity.hpp"
+#include "hmps/terms/shear_wave_modulus.hpp"
 
 namespace hold_test {
 
@@ -31,6 +42,42 @@ TEST(Hold, TakesTheComponentAlongANormal) {
   // (1, 2, 3) less 11/25 (3, 4, 0)
   EXPECT_LE((v[2] - Vector(-0.32f, 0.24f, 3)).norm(), 1e-6f);
   EXPECT_EQ(v[0], Vector(1, 2, 3));
+}
+
+/// How far the last column of a cantilever in plane strain sinks, 40 x 5 mm and five layers, over the deflection of
+/// Timoshenko's beam there. Its first column lies `behind` spacings behind the clamped face; the `held` first ones are
+/// held.
+double sag_over_beam(double behind, int held) {
+  using V2 = hmps::Vector<double, 2>;
+  constexpr double length = 40e-3, height = 5e-3, l0 = height / 5, rho = 1000, g = 0.1;
+  const auto law = hmps::NeoHookean<>::from_young_poisson(30e3, 0.4);
+  std::vector<V2> reference;
+  for (double x = -behind * l0; x < length - 0.25 * l0; x += l0)
+    for (int k = 0; k < 5; ++k) reference.emplace_back(x, (k + 0.5) * l0);
+  const std::size_t n = reference.size();
+  const hmps::ParticleSet clamped(n, [&](std::size_t i) { return i < std::size_t(5 * held); });
+  const hmps::LatticeBonds<double, 2> bonds(hmps::vectors(reference), {.spacing = l0});
+  auto force =
+      hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(hmps::shear_wave_modulus(law.shear_modulus())),
+                           hmps::gravity(rho, V2(0, -g)));
+  std::vector<V2> x = reference, v(n, V2::Zero()), f = v;
+  hmps::relax(force, hmps::vectors(x), hmps::vectors(v), hmps::vectors(f), rho,
+              {.spacing = l0, .tolerance = 1e-5, .load = rho * g * length * height, .moves = ~clamped});
+  double sag = 0;
+  for (std::size_t i = n - 5; i < n; ++i) sag += (reference[i] - x[i])[1] / 5;
+  const double at = reference[n - 1][0], end = at + l0 / 2, load = rho * g * height;
+  const double bending = 30e3 / (1 - 0.4 * 0.4) * std::pow(height, 3) / 12;
+  const double shear = 5. / 6 * law.shear_modulus() * height;
+  const double beam =
+      load / (24 * bending) * at * at * (at * at - 4 * end * at + 6 * end * end) + load / shear * at * (end - at / 2);
+  return sag / beam;
+}
+
+// The README's advice.
+TEST(Hold, BodyBeginsToDeformAtTheHeldLayer) {
+  EXPECT_NEAR(sag_over_beam(0, 1), 1.007, 0.003);
+  EXPECT_NEAR(sag_over_beam(0.5, 1), 1.059, 0.003);
+  EXPECT_NEAR(sag_over_beam(1.5, 2), 1.096, 0.003);
 }
 
 TEST(Hold, RefusesBadInput) {

@@ -349,6 +349,26 @@ TEST(FitParticles, FillsASurfaceInOneCall) {
   EXPECT_THROW((void)fit_particles(brick, l0), hmps::InputError);
 }
 
+TEST(FitParticles, AppendsAnotherPart) {
+  const auto fit = [](double from, double to) {
+    const Box<double, 3> part{V3(from, 0, 0), V3(to, 5, 4)};
+    return fit_particles(part, part, 1.0);
+  };
+  const auto left = fit(-4, 0), right = fit(0, 3);
+  auto both = left;
+  both.append(right);
+  ASSERT_EQ(both.size(), left.size() + right.size());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const auto& part = i < left.size() ? left : right;
+    const std::size_t k = i < left.size() ? i : i - left.size();
+    EXPECT_EQ(both.positions[i], part.positions[k]);
+    EXPECT_EQ(both.volumes[i], part.volumes[k]);
+    EXPECT_EQ(both.layers[i], part.layers[k]);
+    EXPECT_EQ(both.layer_spacings[i], part.layer_spacings[k]);
+  }
+  EXPECT_EQ(both.largest_distance, std::max(left.largest_distance, right.largest_distance));
+}
+
 TEST(FitParticles, TellsItsProgress) {
   const hmps::Ball<double, 3> ball{.radius = 2};
   int calls = 0;
