@@ -66,16 +66,21 @@ function(hmps_parsed_once target)
   target_precompile_headers(${target} REUSE_FROM hmps_parsed)
 endfunction()
 
+# hmps_compiled_together(<target>): with HMPS_UNITY, the sources of the target are compiled together, so that templates
+# that several of them use are instantiated once. For this, each source has a namespace of its own.
+function(hmps_compiled_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HMPS_UNITY} UNITY_BUILD_BATCH_SIZE 0)
+endfunction()
+
 # hmps_unit_tests(<target> <prefix> <source>...): adds the sources to the program <target>, which the first call creates
-# and registers with ctest. With HMPS_UNITY_TESTS its sources are compiled together, so that templates that several of
-# them use are instantiated once; for this, each source has a namespace of its own.
+# and registers with ctest.
 function(hmps_unit_tests target prefix)
   if(TARGET ${target})
     target_sources(${target} PRIVATE ${ARGN})
     return()
   endif()
   add_executable(${target} ${ARGN})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HMPS_UNITY_TESTS} UNITY_BUILD_BATCH_SIZE 0)
+  hmps_compiled_together(${target})
   gtest_discover_tests(${target} TEST_PREFIX "${prefix}: " DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 600)
 endfunction()
 

@@ -8,6 +8,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace bar_detail {
 namespace {
 
 constexpr double length = 0.5, height = 0.05, density = 1000;  // m, m, kg/m3
@@ -32,8 +33,10 @@ constexpr std::array on_lattice{0.344, 0.173, 0.087, 0.047};   // errors of docs
 }
 
 }  // namespace
+}  // namespace bar_detail
 
 report::Table twisted_bar(bool quick) {
+  using namespace bar_detail;
   using report::places;
   report::Table table{.name = "bar", .header = {"layers", "E_hat", "torsion (Hz)", "range", "scatter", "error"}};
   for (const int layers : quick ? std::vector<int>{2} : std::vector<int>{2, 3, 4, 5}) {

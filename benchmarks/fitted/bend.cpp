@@ -8,6 +8,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace bend_detail {
 namespace {
 
 constexpr double wall = 4.8e-3;            // m
@@ -179,8 +180,10 @@ class Flexure {
 }
 
 }  // namespace
+}  // namespace bend_detail
 
 report::Table bent_strip(bool quick) {
+  using namespace bend_detail;
   using report::places;
   report::Table table{
       .name = "bend",

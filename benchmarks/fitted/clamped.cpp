@@ -8,6 +8,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace clamped_detail {
 namespace {
 
 constexpr double wall = 4.8e-3, held = 6e-3;  // m
@@ -81,8 +82,10 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 }
 
 }  // namespace
+}  // namespace clamped_detail
 
 report::Table twisted_strip(bool quick, bool own_volumes) {
+  using namespace clamped_detail;
   return compared({.name = own_volumes ? "strip_volumes" : "strip",
                    .of = own_volumes ? "the strip with own volumes" : "the strip",
                    .measured = "torque (uN m)",
@@ -96,6 +99,7 @@ report::Table twisted_strip(bool quick, bool own_volumes) {
 }
 
 report::Table wedge(bool quick) {
+  using namespace clamped_detail;
   return compared({.name = "wedge",
                    .of = "the wedge",
                    .measured = "gives way by (mm)",
@@ -110,6 +114,7 @@ report::Table wedge(bool quick) {
 }
 
 report::Table junction(bool quick) {
+  using namespace clamped_detail;
   return compared({.name = "junction",
                    .of = "the junction",
                    .measured = "gives way by (mm)",

@@ -8,6 +8,7 @@
 #include "scene/anatomy.hpp"
 
 namespace fitted {
+namespace leaf_detail {
 namespace {
 
 using swallowing::Epiglottis;
@@ -63,8 +64,10 @@ constexpr double answer = 0.2648;
 }
 
 }  // namespace
+}  // namespace leaf_detail
 
 report::Table leaf(bool quick) {
+  using namespace leaf_detail;
   return compared({.name = "leaf",
                    .of = "the leaf",
                    .measured = "gives way by (mm)",

@@ -6,6 +6,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace plate_detail {
 namespace {
 
 constexpr double length = 36e-3, width = 24e-3, thickness = 4.8e-3, held = 6e-3;  // m
@@ -66,8 +67,10 @@ constexpr double answer = 1.90, first_frequency = 6.34;
 [[nodiscard]] double layers_of(double spacing) { return std::round(thickness / spacing); }
 
 }  // namespace
+}  // namespace plate_detail
 
 report::Table plate_about_one_axis(const std::vector<double>& spacings, bool quick) {
+  using namespace plate_detail;
   using report::places;
   report::Table table{.name = "plate",
                       .header = {"spacing (mm)", "layers", "E_hat", "tip (mm)", "range", "scatter", "error"}};
@@ -91,6 +94,7 @@ report::Table plate_about_one_axis(const std::vector<double>& spacings, bool qui
 }
 
 report::Table plate_about_any_axis(const std::vector<double>& spacings, bool quick) {
+  using namespace plate_detail;
   using report::places;
   report::Table table{.name = "any_axis",
                       .header = {"spacing (mm)", "layers", "placements", "tip (mm)", "range", "scatter", "error",

@@ -7,6 +7,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace ring_detail {
 namespace {
 
 constexpr double radius = 24e-3, wall = 4.8e-3, width = 14.4e-3;  // m, the radius in the middle of the wall
@@ -27,8 +28,10 @@ constexpr double answer = 0.2151;                                 // mm, by fini
 }
 
 }  // namespace
+}  // namespace ring_detail
 
 report::Table pinched_ring(bool quick) {
+  using namespace ring_detail;
   using report::places;
   report::Table table{.name = "ring",
                       .header = {"layers", "placements", "squeezed by (mm)", "range", "scatter", "error"}};

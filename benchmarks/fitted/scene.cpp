@@ -10,6 +10,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace scene_detail {
 namespace {
 
 /// Subtracts the mean and the moment from a pattern, so that a free body neither drifts nor turns.
@@ -29,6 +30,7 @@ void balance(std::vector<Vector>& pattern, const std::vector<Vector>& places) {
 }
 
 }  // namespace
+}  // namespace scene_detail
 
 Placement tilted(double degrees, const Vector& by) {
   const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
@@ -147,7 +149,7 @@ void FittedBody::yield_linearly(const std::function<Vector(std::size_t)>& load, 
 double FittedBody::gives_way(const Placement& at, const PatternLoad& load, const std::vector<double>& volumes) {
   std::vector<Vector> pattern;
   for (std::size_t i = 0; i < moving_; ++i) pattern.emplace_back(at.direction(load.pattern(at.local(reference(i)))));
-  if (load.of_free_body) balance(pattern, body_.reference);
+  if (load.of_free_body) scene_detail::balance(pattern, body_.reference);
   const double cube = body_.volume();
   const auto share = [&](std::size_t i) { return volumes.empty() ? 1.0 : volumes[i] / cube; };
   double total = 0;

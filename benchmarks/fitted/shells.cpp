@@ -7,6 +7,7 @@
 #include "report/text.hpp"
 
 namespace fitted {
+namespace shells_detail {
 namespace {
 
 constexpr double radius = 24e-3, wall = 4.8e-3;  // m, the radius in the middle of the wall
@@ -49,8 +50,10 @@ constexpr double pinched = 0.1907, blown = 0.01275;
 }
 
 }  // namespace
+}  // namespace shells_detail
 
 report::Table half_cylinder(bool quick) {
+  using namespace shells_detail;
   return compared({.name = "half_cylinder",
                    .of = "the half cylinder",
                    .measured = "gives way by (mm)",
@@ -64,6 +67,7 @@ report::Table half_cylinder(bool quick) {
 }
 
 report::Table half_ball(bool quick) {
+  using namespace shells_detail;
   return compared({.name = "half_ball",
                    .of = "the half ball",
                    .measured = "gives way by (mm)",

@@ -8,6 +8,7 @@
 #include "stability/groups.hpp"
 
 namespace stability {
+namespace contact_detail {
 namespace {
 
 /// A cube above a wall or above another cube. Both are parts of one set of particles, the upper cube first.
@@ -209,6 +210,7 @@ std::string collide(const typename Meeting<S>::Settings& settings, double sidewa
 }
 
 }  // namespace
+}  // namespace contact_detail
 
 Table impact(bool quick) {
   Table table{"impact",
@@ -222,7 +224,7 @@ Table impact(bool quick) {
         std::string how;
         double speed = 1;
         for (; speed < last; speed *= std::sqrt(2.0)) {
-          how = thrown<decltype(s)>(layers, share, speed);
+          how = contact_detail::thrown<decltype(s)>(layers, share, speed);
           if (!how.empty()) break;
         }
         row.push_back(how.empty() ? "survives " + digits(speed / std::sqrt(2.0)) : digits(speed));
@@ -239,6 +241,7 @@ Table impact(bool quick) {
 }
 
 Table partners(bool quick) {
+  using namespace contact_detail;
   Table table{"partners",
               {"Cube over its partner", "Value", "Density used by contact", "Energy, double", "Energy, float"}};
   const auto add = [&](const std::string& name, double value, const std::string& rho, double heavy, double stiff,

@@ -9,6 +9,7 @@
 #include "stability/sheet.hpp"
 
 namespace stability {
+namespace courant_detail {
 namespace {
 
 /// Pseudo-random number in (-1, 1), a function of `number` alone (splitmix64).
@@ -126,8 +127,10 @@ std::vector<Case> cases(bool quick) {
 }
 
 }  // namespace
+}  // namespace courant_detail
 
 Table courant(bool quick, std::vector<Ratio>& ratios) {
+  using namespace courant_detail;
   Table table{"courant",
               {"Scene", "Value", "Largest step, l0 / c_p", "Step / largest, double", "Limit / largest, double",
                "Step / largest, float", "Support", "Cause", "Evaluations"}};

@@ -8,6 +8,7 @@
 #include "stability/groups.hpp"
 
 namespace stability {
+namespace endurance_detail {
 namespace {
 
 /// The drift of conserved quantities in a long run.
@@ -75,8 +76,10 @@ Drift endure(long steps, double rate, bool compensated) {
 }
 
 }  // namespace
+}  // namespace endurance_detail
 
 Table endurance(bool quick) {
+  using namespace endurance_detail;
   const long steps = quick ? 10000 : 1000000;
   Table table{"endurance",
               {"Kernels", "Positions", "Velocities", "Drift", "Steps", "Revolutions", "Energy", "Momentum",

@@ -9,6 +9,7 @@
 #include "stability/groups.hpp"
 
 namespace stability {
+namespace extremes_detail {
 namespace {
 
 /// Steps are this share of the value of `stable_step` at rest, because crushed bodies are stiffer.
@@ -187,8 +188,10 @@ void for_each_law(Visit&& visit) {
 }
 
 }  // namespace
+}  // namespace extremes_detail
 
 Table inversion(bool quick) {
+  using namespace extremes_detail;
   Table table{"inversion",
               {"Law", "Scalar", "Height times", "Recovers at this share of the stable step", "At the end",
                "Largest speed, m/s"}};
@@ -204,6 +207,7 @@ Table inversion(bool quick) {
 }
 
 Table deformation(bool quick) {
+  using namespace extremes_detail;
   Table table{"deformation", {"Deformation", "Law", "Scalar", "Outcome", "Afterwards"}};
   const auto both = [&](auto&& problem) {
     table.rows.push_back(problem(double{}));

@@ -8,6 +8,7 @@
 #include "stability/groups.hpp"
 
 namespace stability {
+namespace rejected_input_detail {
 namespace {
 
 template <class List>
@@ -16,8 +17,10 @@ void bond(const std::vector<Vector>& points) {
 }
 
 }  // namespace
+}  // namespace rejected_input_detail
 
 Table rejected_input() {
+  using namespace rejected_input_detail;
   Table table{"rejected_input", {"Input", "Message"}};
   const auto refuse = [&](const std::string& input, const std::function<void()>& call) {
     std::string words = "nothing";

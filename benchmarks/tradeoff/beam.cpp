@@ -16,6 +16,7 @@
 #include "tradeoff/tissue.hpp"
 
 namespace tradeoff {
+namespace beam_detail {
 namespace {
 
 using scenes::End, scenes::SquareBeam, scenes::timoshenko_frequency;
@@ -213,8 +214,10 @@ const std::string body =
     "step is given as a share of the largest stable step; mixed means kernels in float and state in double.";
 
 }  // namespace
+}  // namespace beam_detail
 
 Scene beam(const Scale& scale) {
+  using namespace beam_detail;
   Scene scene = vibration(scale, End::clamped);
   scene.name = "beam";
   scene.title = "A clamped beam";
@@ -227,6 +230,7 @@ Scene beam(const Scale& scale) {
 }
 
 Scene bar(const Scale& scale) {
+  using namespace beam_detail;
   Scene scene = vibration(scale, End::free);
   scene.name = "bar";
   scene.title = "A free bar";

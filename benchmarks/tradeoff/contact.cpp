@@ -15,6 +15,7 @@
 #include "tradeoff/tissue.hpp"
 
 namespace tradeoff {
+namespace contact_detail {
 namespace {
 
 constexpr double young = 20e3, density = 1000, viscosity = 5e-3;  // Pa, kg/m3, m2/s
@@ -185,8 +186,10 @@ Outcome press(const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace contact_detail
 
 Scene contact(const Scale& scale) {
+  using namespace contact_detail;
   std::vector<Value> spacings{4e-3 / 2, 4e-3 / 3, 1e-3}, ratios{0.02, 0.05, 0.2};
   if (scale.quick) {
     spacings = {2e-3};

@@ -12,6 +12,7 @@
 #include "tradeoff/tissue.hpp"
 
 namespace tradeoff {
+namespace sag_detail {
 namespace {
 
 using Vector = hmps::Vector<double, 3>;
@@ -80,6 +81,7 @@ Outcome sag_in(const Settings& s) {
 }
 
 }  // namespace
+}  // namespace sag_detail
 
 Scene sag(const Scale& scale) {
   std::vector<Value> spacings{0.005, 0.004, 0.02 / 6, 0.0025};
@@ -102,7 +104,7 @@ Scene sag(const Scale& scale) {
            {.name = "step", .values = {0.5, 0.75}, .standard = 0.75},
            particles_parameter()},
       .crossed = {{"spacing", "E_hat"}, {"spacing", "particles"}},
-      .run = sag_in,
+      .run = sag_detail::sag_in,
       .known = [](const Settings&) { return std::vector<double>{0.0234}; },
       .repeats = scale.quick ? 1 : 5};
 }

@@ -10,6 +10,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace affine_detail {
 namespace {
 
 template <int D>
@@ -107,6 +108,7 @@ void turn(double l0, double& stress, double& force_density, std::size_t& particl
 }
 
 }  // namespace
+}  // namespace affine_detail
 
 Problem affine_patch() {
   return {
@@ -129,7 +131,7 @@ Problem affine_patch() {
       .across = "spacings across",
       .sizes = {12, 16, 24},
       .methods = {paper},
-      .run = affine,
+      .run = affine_detail::affine,
       .remark =
           "On particles that are shifted from the lattice, a uniform stress is not in equilibrium: the sums of w "
           "A^-1 r0 over the bonds do not cancel there, and refinement does not help. Statics and waves need the "
@@ -137,6 +139,7 @@ Problem affine_patch() {
 }
 
 Problem rigid_motion() {
+  using namespace affine_detail;
   return {.name = "rigid motion",
           .title = "2. Rigid motion",
           .text =

@@ -11,6 +11,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace bars_detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -106,6 +107,7 @@ Measured throw_column(int n, const Method& method) {
 }
 
 }  // namespace
+}  // namespace bars_detail
 
 Problem free_bar() {
   return {
@@ -123,7 +125,7 @@ Problem free_bar() {
       .across = "particles across the height",
       .sizes = {2, 3, 4, 5, 6, 8, 10},
       .methods = methods,
-      .run = ring,
+      .run = bars_detail::ring,
       .remark =
           "With E_hat = E the bar is too stiff, and the error decreases with second order. With 4/3 mu the bending "
           "frequencies are close to the answer from three particles on and pass it, so no order can be given. The "
@@ -131,6 +133,7 @@ Problem free_bar() {
 }
 
 Problem rubber_bar() {
+  using namespace bars_detail;
   // Beam theory for the bar of problem 6, for which there is also an answer by finite elements.
   const double theory = scenes::timoshenko_frequency(
       {.length = 0.5, .height = 0.05, .young = 1e5, .poisson = 0.3, .density = 1000}, scenes::End::free);
@@ -183,7 +186,7 @@ Problem bending_column() {
           .across = "particles across",
           .sizes = {3, 4, 5, 6, 7, 8, 9, 10},
           .methods = all_methods,
-          .run = throw_column,
+          .run = bars_detail::throw_column,
           .parity = true,
           .remark =
               "With E_hat = E the column is far too stiff. With 4/3 mu the remaining error is that of the clamp, and "

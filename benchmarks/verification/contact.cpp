@@ -10,6 +10,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace contact_detail {
 namespace {
 
 /// The contact between two bodies in the same arrays, of which the first `first` particles are the lower one.
@@ -137,6 +138,7 @@ Measured indent(int n, const Method& method) {
 }
 
 }  // namespace
+}  // namespace contact_detail
 
 Problem contact_patch() {
   return {
@@ -157,7 +159,7 @@ Problem contact_patch() {
       .across = "particles up a block",
       .sizes = {5, 10, 15, 20, 30},
       .methods = methods,
-      .run = press,
+      .run = contact_detail::press,
       .remark =
           "The mean is nearly right: the compliance of the penalty and the stiffening by the held faces nearly "
           "cancel. Inside, the pressure is uniform. At the free sides it is not, at any spacing: the wall of "
@@ -166,6 +168,7 @@ Problem contact_patch() {
 }
 
 Problem sphere_on_block() {
+  using namespace contact_detail;
   return {.name = "sphere",
           .title = "23. Sphere on a layer",
           .text =

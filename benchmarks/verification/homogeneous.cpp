@@ -9,6 +9,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace homogeneous_detail {
 namespace {
 
 template <int D>
@@ -92,8 +93,10 @@ Problem homogeneous(std::string name, std::string title, std::string text, int b
 }
 
 }  // namespace
+}  // namespace homogeneous_detail
 
 Problem uniaxial_stress() {
+  using namespace homogeneous_detail;
   std::vector<Case> cases;
   for (const auto& [stretch, answer] :
        {std::pair{0.5, -17515.426}, {0.7, -7597.4589}, {1.3, 5418.6321}, {1.5, 8771.2136}, {2.0, 17414.0623}})
@@ -107,6 +110,7 @@ Problem uniaxial_stress() {
 }
 
 Problem equibiaxial_stress() {
+  using namespace homogeneous_detail;
   std::vector<Case> cases;
   for (const auto& [stretch, answer] : {std::pair{0.8, -9822.3128}, {1.1, 3859.0892}, {1.5, 21863.3411}})
     cases.push_back({free_stretch(stretch, 2), 0, 0, "stress at " + examples::message(stretch), answer});
@@ -116,6 +120,7 @@ Problem equibiaxial_stress() {
 }
 
 Problem simple_shear() {
+  using namespace homogeneous_detail;
   Tensor<3> F = Tensor<3>::Identity();
   F(0, 1) = 1;
   return homogeneous(

@@ -9,6 +9,7 @@
 #include "report/text.hpp"
 
 namespace verification {
+namespace page_detail {
 namespace {
 
 using report::Cells, report::Colour, report::Panel, report::wrapped;
@@ -158,8 +159,10 @@ void draw_problem(const Solved& solved, Panel panel) {
 }
 
 }  // namespace
+}  // namespace page_detail
 
 std::string summary(const std::vector<Solved>& all) {
+  using namespace page_detail;
   report::Table answers{
       .header = {"Problem", "Quantity", "Answer", "Source", paper.name, shear_wave.name, mean_dilatation.name}};
   for (const Solved& solved : all)
@@ -176,6 +179,7 @@ std::string summary(const std::vector<Solved>& all) {
 }
 
 std::string page_of(const std::vector<Solved>& all) {
+  using namespace page_detail;
   double seconds = 0;
   for (const Solved& solved : all)
     for (const Trial& trial : solved.trials) seconds += trial.seconds;
@@ -189,6 +193,7 @@ std::string page_of(const std::vector<Solved>& all) {
 }
 
 void draw(const std::vector<Solved>& all, const std::filesystem::path& path) {
+  using namespace page_detail;
   constexpr double left = 52, top = 30, width = 210, height = 150, right = 14, below = 44, legend = 56;
   constexpr int columns = 4;
   constexpr auto ink = Colour::hex(0x222222);

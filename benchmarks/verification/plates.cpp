@@ -10,6 +10,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace plates_detail {
 namespace {
 
 /// A plate in plane strain, clamped at x = 0.
@@ -94,8 +95,10 @@ Measured wave_flag(int n, const Method& method) {
 }
 
 }  // namespace
+}  // namespace plates_detail
 
 Problem oscillating_plate() {
+  using namespace plates_detail;
   return {.name = "oscillating plate",
           .title = "19. Oscillating plate",
           .text =
@@ -139,7 +142,7 @@ Problem elastic_flag() {
       .across = "particles across the height",
       .sizes = {3, 4, 5, 6, 7, 8},
       .methods = clamped_methods,
-      .run = wave_flag,
+      .run = plates_detail::wave_flag,
       .parity = true,
       .remark =
           "With 4/3 mu the remaining error is mostly that of the clamp, which adds half a spacing to the length. "

@@ -10,6 +10,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace pressure_detail {
 namespace {
 
 using Vector = hmps::Vector<double, 2>;
@@ -133,8 +134,10 @@ const std::string on_faces =
     "the lattice, so a straight face under a uniform load causes no error.";
 
 }  // namespace
+}  // namespace pressure_detail
 
 Problem long_wall() {
+  using namespace pressure_detail;
   return {
       .name = "long wall",
       .title = "15. Long wall",
@@ -161,6 +164,7 @@ Problem long_wall() {
 }
 
 Problem thick_cylinder() {
+  using namespace pressure_detail;
   return {.name = "thick cylinder",
           .title = "16. Thick cylinder",
           .text =
@@ -193,7 +197,7 @@ Problem cooks_membrane() {
       .across = "cells across the width",
       .sizes = {12, 16, 24, 36, 48, 64, 96},
       .methods = clamped_methods,
-      .run = cook,
+      .run = pressure_detail::cook,
       .remark =
           "The error is of first order: the face is held half a spacing too far back, and the sloping faces "
           "have steps."};

@@ -7,6 +7,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace statics_detail {
 namespace {
 
 using Vector = hmps::Vector<double, 3>;
@@ -56,6 +57,7 @@ Measured bonded(int n, const Method& method, const Vector& shift, bool shear) {
 }
 
 }  // namespace
+}  // namespace statics_detail
 
 Problem cantilever() {
   return {
@@ -70,7 +72,7 @@ Problem cantilever() {
       .across = "particles across the height",
       .sizes = {3, 4, 5, 6, 7, 8, 9, 10, 11},
       .methods = all_methods,
-      .run = sag,
+      .run = statics_detail::sag,
       .parity = true,
       .remark =
           "With E_hat = E the stabiliser makes the bar too stiff. With 4/3 mu the result is close to the answer. At "
@@ -80,6 +82,7 @@ Problem cantilever() {
 }
 
 Problem bonded_shear() {
+  using namespace statics_detail;
   return {
       .name = "bonded cube, shear",
       .title = "12. Bonded cube in shear",
@@ -103,6 +106,7 @@ Problem bonded_shear() {
 }
 
 Problem bonded_compression() {
+  using namespace statics_detail;
   return {
       .name = "bonded cube, compression",
       .title = "13. Bonded cube in compression",

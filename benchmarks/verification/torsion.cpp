@@ -7,6 +7,7 @@
 #include "verification/support.hpp"
 
 namespace verification {
+namespace torsion_detail {
 namespace {
 
 constexpr double radius = 0.01, twist = 50;  // m, rad/m: an angle of 0.5 at the surface
@@ -47,8 +48,10 @@ Measured wring(int size, const Method& method) {
 }
 
 }  // namespace
+}  // namespace torsion_detail
 
 Problem torsion() {
+  using namespace torsion_detail;
   const double a4 = std::pow(radius, 4), pi = std::numbers::pi;
   return {
       .name = "torsion",
