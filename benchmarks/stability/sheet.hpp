@@ -64,7 +64,7 @@ class Sheet {
 
   [[nodiscard]] std::vector<hmps::StepCause> causes(const hmps::StableStep& found,
                                                     const hmps::StableStepSettings& settings) {
-    const auto contact = [this](const auto& x, const auto& v, const auto& f) { touch(x, v, f); };
+    const auto contact = [this](const auto& x, const auto& v, const auto& f) { this->touch(x, v, f); };
     return hmps::step_causes(found, body_.x(), body_.v(), density, settings, hmps::NamedForce{"elastic", elastic_},
                              hmps::NamedForce{"stabiliser", stabiliser_}, hmps::NamedForce{"viscosity", viscous_},
                              hmps::NamedForce{"contact", contact});
