@@ -143,6 +143,7 @@ struct Comparison {
 [[nodiscard]] report::Table twisted_strip(bool quick, bool own_volumes);  ///< clamped.cpp
 [[nodiscard]] report::Table wedge(bool quick);
 [[nodiscard]] report::Table junction(bool quick);
-[[nodiscard]] report::Table leaf(bool quick);  ///< leaf.cpp
+[[nodiscard]] report::Table leaf(bool quick);          ///< leaf.cpp
+[[nodiscard]] report::Table outer_stress(bool quick);  ///< stress.cpp
 
 }  // namespace fitted

@@ -78,6 +78,7 @@
 #include "hmps/diagnostics/momentum.hpp"
 #include "hmps/diagnostics/monitor.hpp"
 #include "hmps/diagnostics/recorded.hpp"
+#include "hmps/diagnostics/recovered_gradient.hpp"
 #include "hmps/diagnostics/strain.hpp"
 #include "hmps/diagnostics/stress.hpp"
 #include "hmps/force/deformation_gradient.hpp"

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The stress in the outermost layer of a bent strip, from the F of the force and from recovered gradients.
+#include <cmath>
+#include <vector>
+
+#include "fitted/scene.hpp"
+#include "report/text.hpp"
+
+namespace fitted {
+namespace stress_detail {
+namespace {
+
+constexpr double length = 40e-3, width = 10e-3, thickness = 3e-3;  // m
+constexpr double load = 106;                                       // N/m3 across the strip
+
+[[nodiscard]] hmps::MooneyRivlin<> material() { return hmps::MooneyRivlin<>::from_young(30e3, 0.3e6); }
+
+/// Means over the particles of the outermost layers, a third of the length from the clamp and in the middle third of
+/// the width: the von Mises stress over that of beam theory at the height of the particle.
+struct Found {
+  double plain = 0, recovered = 0;
+};
+
+[[nodiscard]] Found bend(const Placement& at, int layers) {
+  const double l0 = thickness / layers;
+  const Vector half(length / 2, width / 2, thickness / 2);
+  const auto fit = [&](double from, double to) {
+    const hmps::Box<double, 3> part{Vector(from, 0, 0) - half, Vector(to, width, thickness) - half};
+    const Vector reach = Vector::Constant(0.03);
+    return hmps::fit_particles(at.placed(part), hmps::Box<double, 3>{-reach, reach}, l0);
+  };
+  Piece strip = fit(l0 / 2, length);
+  const std::size_t moving = strip.size();
+  strip.append(fit(-2.5 * l0, l0 / 2));
+  const auto chosen = scenes::stabiliser_of(strip, l0, material());
+  scenes::Body<3> body(l0, strip.positions);
+  const hmps::BondList<double, 3> bonds(body.X(), {.spacing = l0});
+  auto force = scenes::thin_wall_force(bonds, material(), chosen,
+                                       hmps::gravity(1000, Vector(at.direction(Vector(0, 0, -load / 1000)))));
+  hmps::relax(
+      force, body.x(), body.v(), body.f(), 1000,
+      {.spacing = l0, .tolerance = 1e-4, .load = load * length * width * thickness, .moves = [&](std::size_t i) {
+         return i < moving;
+       }});
+  std::vector<hmps::Matrix<double, 3>> plain(body.size()), recovered(body.size());
+  hmps::deformation_gradient(bonds, body.x(), hmps::matrices(plain));
+  hmps::recovered_gradients(bonds, body.x(), hmps::matrices(recovered));
+  const auto law = scenes::with_bulk(material(), chosen.bulk.law);
+  Found sum;
+  int count = 0;
+  for (std::size_t i = 0; i < moving; ++i) {
+    const Vector X = at.local(body.reference[i]);
+    const double from_clamp = X[0] + half[0], outermost = half[2] - thickness / layers / 2;
+    if (std::abs(X[2]) < outermost - 0.15 * l0 || std::abs(X[1]) > width / 3) continue;
+    if (from_clamp < 0.2 * length || from_clamp > 0.5 * length) continue;
+    const double beam = load * std::pow(length - from_clamp, 2) / 2 * std::abs(X[2]) * 12 / std::pow(thickness, 2);
+    sum.plain += hmps::von_mises_stress(law, plain[i]) / beam;
+    sum.recovered += hmps::von_mises_stress(law, recovered[i]) / beam;
+    ++count;
+  }
+  return {sum.plain / count, sum.recovered / count};
+}
+
+}  // namespace
+}  // namespace stress_detail
+
+report::Table outer_stress(bool quick) {
+  using namespace stress_detail;
+  using report::places;
+  report::Table table{.name = "stress",
+                      .header = {"layers", "placements", "F of the force", "recovered gradients", "range", "scatter"}};
+  for (const int layers : quick ? std::vector<int>{2} : std::vector<int>{2, 3, 4}) {
+    std::vector<double> plain, recovered;
+    for (const Placement& at : any_placements(quick ? 1 : 3, thickness / layers)) {
+      const Found found = bend(at, layers);
+      plain.push_back(found.plain);
+      recovered.push_back(found.recovered);
+    }
+    const Spread by = spread(recovered);
+    table.rows.push_back({std::to_string(layers), std::to_string(plain.size()), places(spread(plain).mean, 2),
+                          places(by.mean, 2), places(by.least, 2) + " to " + places(by.most, 2),
+                          places(100 * by.scatter, 1) + " %"});
+    table.check(std::abs(by.mean - 1) < (layers == 2 ? 0.15 : 0.05),
+                "stress: " + std::to_string(layers) + " layers miss their bound");
+  }
+  return table;
+}
+
+}  // namespace fitted
