@@ -86,7 +86,8 @@ class Page:
         others = int(self.context.get("others_running", 0))
         yield from words(f"Compiled by {self.context.get('compiler', 'an unnamed compiler')} for this machine and run "
                          f"on {machine()}, {self.context['num_cpus']} cores{caches}. The figures are medians of "
-                         f"processor times for one thread and of wall-clock times for several. When the run began, "
+                         f"processor times for one thread and of wall-clock times for several; searches and "
+                         f"bonds of a million particles are measured once. When the run began, "
                          f"{others or 'no'} other process{'' if others == 1 else 'es'} kept the machine busy" +
                          (", so figures for several threads mean little." if others else ".") +
                          (f" The repetitions of a benchmark scatter by {100 * statistics.median(self.scatter):.0f} % "

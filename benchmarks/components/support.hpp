@@ -97,20 +97,31 @@ inline void count(benchmark::State& run, std::size_t items, const Cost& cost) {
   if (cost.flop > 0) run.counters["FLOP"] = benchmark::Counter(done * cost.flop, benchmark::Counter::kIsRate);
 }
 
+/// Runs a benchmark once, however many repetitions are asked for, if it takes seconds: what is done once before a
+/// simulation, with a million particles.
+inline benchmark::internal::Benchmark* once_if_long(benchmark::internal::Benchmark* registered, const Box& box) {
+  return box.size() < million.size() ? registered : registered->Repetitions(1);
+}
+
 /// Registers `measure(run, executor)` as `name/THREADS`: for one thread, timed by processor time, and for more threads,
-/// timed by the clock.
-template <class Measure>
-void add_threads(const std::string& name, const Measure& measure, benchmark::TimeUnit unit = benchmark::kMillisecond) {
-  benchmark::RegisterBenchmark((name + "/1").c_str(), [measure](benchmark::State& run) {
-    measure(run, hmps::Serial{});
-  })->Unit(unit);
+/// timed by the clock. Calls `adjust` with each registered benchmark.
+template <class Measure, class Adjust>
+void add_threads(const std::string& name, const Measure& measure, benchmark::TimeUnit unit, const Adjust& adjust) {
+  adjust(benchmark::RegisterBenchmark((name + "/1").c_str(), [measure](benchmark::State& run) {
+           measure(run, hmps::Serial{});
+         })->Unit(unit));
 #ifdef _OPENMP
   for (int threads = 2; threads <= omp_get_num_procs(); threads *= 2)
-    benchmark::RegisterBenchmark((name + "/" + std::to_string(threads)).c_str(),
-                                 [measure, threads](benchmark::State& run) { measure(run, hmps::OpenMP{threads}); })
-        ->UseRealTime()
-        ->Unit(unit);
+    adjust(
+        benchmark::RegisterBenchmark((name + "/" + std::to_string(threads)).c_str(),
+                                     [measure, threads](benchmark::State& run) { measure(run, hmps::OpenMP{threads}); })
+            ->UseRealTime()
+            ->Unit(unit));
 #endif
+}
+template <class Measure>
+void add_threads(const std::string& name, const Measure& measure, benchmark::TimeUnit unit = benchmark::kMillisecond) {
+  add_threads(name, measure, unit, [](benchmark::internal::Benchmark*) {});
 }
 
 }  // namespace bench

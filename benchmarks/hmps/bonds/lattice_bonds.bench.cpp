@@ -32,9 +32,10 @@ void setup(benchmark::State& run, const Box& box) {
   add_bonds<hmps::LatticeBonds<float, 3>>("bonds/lattice");
   add_bonds<hmps::LatticeBonds<double, 3>>("bonds/lattice");
   for (const Box& box : {in_cache, paper_size, large, million})
-    benchmark::RegisterBenchmark(("setup/" + std::to_string(box.size())).c_str(), [box](benchmark::State& run) {
-      setup(run, box);
-    })->Unit(benchmark::kMillisecond);
+    once_if_long(benchmark::RegisterBenchmark(("setup/" + std::to_string(box.size())).c_str(),
+                                              [box](benchmark::State& run) { setup(run, box); })
+                     ->Unit(benchmark::kMillisecond),
+                 box);
   return true;
 }();
 

@@ -28,10 +28,13 @@ void add_searches(const std::string& name, const Search& search) {
   const auto add = [&]<class S>(S) {
     for (const bool shuffled : {false, true})
       for (const Box& box : {in_cache, paper_size, million})
-        add_threads(name + (shuffled ? "/shuffled/" : "/ordered/") + name_of<S>() + "/" + std::to_string(box.size()),
-                    [box, shuffled, search](benchmark::State& run, const auto& execute) {
-                      search(S{}, run, box, shuffled, execute);
-                    });
+        add_threads(
+            name + (shuffled ? "/shuffled/" : "/ordered/") + name_of<S>() + "/" + std::to_string(box.size()),
+            [box, shuffled, search](benchmark::State& run, const auto& execute) {
+              search(S{}, run, box, shuffled, execute);
+            },
+            benchmark::kMillisecond,
+            [&box](benchmark::internal::Benchmark* registered) { once_if_long(registered, box); });
   };
   add(0.f);
   add(0.);
