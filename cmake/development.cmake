@@ -67,7 +67,8 @@ function(hmps_parsed_once target)
 endfunction()
 
 # hmps_compiled_together(<target>): with HMPS_UNITY, the sources of the target are compiled together, so that templates
-# that several of them use are instantiated once. For this, each source has a namespace of its own.
+# that several of them use are instantiated once. For this, each source has a namespace of its own, except those with
+# SKIP_UNITY_BUILD_INCLUSION.
 function(hmps_compiled_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${HMPS_UNITY} UNITY_BUILD_BATCH_SIZE 0)
 endfunction()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a thin wall bends that lies at any angle: a plate of 36 x 24 x 4.8 mm, clamped at a narrow face, sinks under its
+// How a thin wall at any angle bends: a plate of 36 x 24 x 4.8 mm, clamped at a narrow face, sinks under its
 // own weight. Fitted particles follow its surface, and E_hat and the mean dilatation are chosen for walls of few
 // layers.
 #include <Eigen/Geometry>

@@ -69,7 +69,8 @@ class Run {
                      .penalty_ratio = options.penalty_ratio.value_or(0),
                      .paper_contact = options.paper_contact,
                      .threads = options.threads}),
-        settings_(fingerprint(options, chosen, data_, friction_, simulation_.time_step(), simulation_.penalty())) {
+        settings_(
+            fingerprint(options, chosen, fitted, data_, friction_, simulation_.time_step(), simulation_.penalty())) {
     summary_.case_name = chosen.name;
     summary_.scalar = options.single_precision ? "float" : "double";
     summary_.threads = options.threads;

@@ -23,10 +23,19 @@ void add_tracks(RunSettings& settings, const std::filesystem::path& data) {
                             std::to_string(Digest(examples::read_file(file)).value()));
 }
 
+/// Whether a lattice or fitted particles, and which: another fit of the same spacing is another body.
+[[nodiscard]] std::string particles(const FittedOrgans* fitted) {
+  if (fitted == nullptr) return "lattice";
+  Digest digest;
+  for (const Point& place : fitted->particles.positions)
+    digest.add({reinterpret_cast<const char*>(place.data()), 3 * sizeof(double)});
+  return "fitted " + std::to_string(digest.value());
+}
+
 }  // namespace
 
-RunSettings fingerprint(const Options& options, const Case& chosen, const std::filesystem::path& data, double friction,
-                        double first_step, double penalty) {
+RunSettings fingerprint(const Options& options, const Case& chosen, const FittedOrgans* fitted,
+                        const std::filesystem::path& data, double friction, double first_step, double penalty) {
   const auto text = [](double value) {
     char digits[40];
     std::snprintf(digits, sizeof digits, "%a", value);
@@ -35,7 +44,7 @@ RunSettings fingerprint(const Options& options, const Case& chosen, const std::f
   RunSettings settings{{"case", std::string(chosen.name)},
                        {"scalar", options.single_precision ? "float" : "double"},
                        {"spacing", text(options.spacing)},
-                       {"particles", options.fitted ? "fitted" : "lattice"},
+                       {"particles", particles(fitted)},
                        {"lattice shift", text(options.lattice_shift)},
                        {"region H", options.constrictors ? "yes" : "no"},
                        {"friction", text(friction)},

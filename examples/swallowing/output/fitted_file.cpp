@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "../../common/error.hpp"
 #include "output/checkpoint.hpp"
 
 namespace swallowing {
@@ -27,12 +28,17 @@ void write_fitted(const std::filesystem::path& out, const FittedOrgans& fitted, 
   file.set("layers", fitted.particles.layers);
   file.set("layer spacings", fitted.particles.layer_spacings);
   file.set("depth", fitted.depth);
+  file.set("iterations", fitted.particles.iterations);
+  file.set("largest distance", fitted.particles.largest_distance);
   file.save(out / file_name);
 }
 
 std::optional<FittedOrgans> read_fitted(const std::filesystem::path& out, double spacing) {
   const auto file = Checkpoint::load(out / file_name);
-  if (!file || file->value<double>("spacing") != spacing) return std::nullopt;
+  if (!file) return std::nullopt;
+  const auto other = file->value<double>("spacing");
+  examples::require(other == spacing, (out / file_name).string(), " holds particles of a spacing of ", other,
+                    " m in place of ", spacing, " m; resume with that spacing, or start anew without --resume");
   FittedOrgans fitted;
   fitted.depth = file->get<double>("depth");
   const std::size_t n = fitted.depth.size();
@@ -46,6 +52,8 @@ std::optional<FittedOrgans> read_fitted(const std::filesystem::path& out, double
   file->get("volumes", particles.volumes);
   file->get("layers", particles.layers);
   file->get("layer spacings", particles.layer_spacings);
+  particles.iterations = file->value<int>("iterations");
+  particles.largest_distance = file->value<double>("largest distance");
   return fitted;
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
@@ -12,7 +11,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/force/deformation_gradient.hpp"
+#include "hmps/core/view_checks.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -23,7 +22,7 @@ namespace detail {
 template <int D>
 class QuadraticFit {
  public:
-  /// Adds a neighbour at `r` (dimensionless), displaced by `u` relative to the particle, with the weight `w`.
+  /// Adds a neighbour at `r`, displaced by `u` relative to the particle, with the weight `w`.
   void add(const Vector<double, D>& r, const Vector<double, D>& u, double w) {
     Eigen::Matrix<double, products, 1> q;
     for (int a = 0, k = 0; a < D; ++a)
@@ -34,9 +33,9 @@ class QuadraticFit {
     qq_ += w * q * q.transpose();
     qu_ += w * q * u.transpose();
   }
-  [[nodiscard]] bool empty() const { return rr_.trace() == 0; }
-  /// A^T.
+  /// A^T; zero without neighbours.
   [[nodiscard]] Eigen::Matrix<double, D, D> gradient() const {
+    if (rr_.trace() == 0) return Eigen::Matrix<double, D, D>::Zero();
     const auto own = rr_.ldlt();
     const Eigen::Matrix<double, D, products> explained = own.solve(rq_);
     Eigen::Matrix<double, products, products> left = qq_ - rq_.transpose() * explained;
@@ -49,7 +48,7 @@ class QuadraticFit {
   static constexpr int products = D * (D + 1) / 2;
   /// The part of the mean square of the products that counts as none where a linear function explains the rest, as that
   /// of z z in a wall of two layers: h is then close to zero. With a tenth of it, the gradients of irregular clouds
-  /// amplify noise of the displacements by up to 6.8 instead of 2.8; with ten times it, the strain of bent walls of two
+  /// amplify noise by up to 6.8 instead of 2.8 in the mean square; with ten times it, the strain of bent walls of two
   /// layers is 10 % too small instead of 1.3 %.
   static constexpr double indistinct = 1e-2;
 
@@ -61,22 +60,29 @@ class QuadraticFit {
 
 }  // namespace detail
 
-/// WRITES the deformation gradient of every particle at positions `x` (m) to `F`, for the output of strain and stress.
+/// WRITES the deformation gradient of every particle at positions `x` (m) to `F`, for the von Mises stress and the
+/// strain along the faces of thin walls.
 ///
 /// The F of \paper{11} is a mean over the neighbours. Where strain varies and a particle has neighbours on one side
 /// only, as at the faces of a bent wall, it is that of a place further inside: in the outer layers of walls of two,
-/// three and four layers the strain of bending is 34, 18 and 12 % too small. This function fits the displacements of
-/// the neighbours by a quadratic function, weighted as the bonds, and returns its gradient at the particle itself. What
-/// neighbours cannot tell apart counts as linear: across a wall of two layers, strain is their mean. The outermost
-/// particles lie half a layer inside the surface. docs/fitted.md compares stresses.
+/// three and four layers the strain of bending is 35, 17 and 12 % too small. This function fits the displacements of
+/// the neighbours by a quadratic function, weighted as the bonds, and returns its gradient at the particle itself.
+/// Derivatives along a face become those at the particle, within 1.3 % when walls bend.
 ///
-/// It is not the F from which forces derive. Noise of positions is up to 2.8 times as large in it as in the other.
-/// Throws `InputError` for views of the wrong size.
+/// Derivatives across a face hardly change: on a lattice, where the neighbours of an outer particle lie in two layers,
+/// the square of their depth is proportional to their depth, and what neighbours cannot tell apart counts as linear.
+/// The same holds along edges and in corners. So det F is no better than that of \paper{11}, nor is a pressure computed
+/// from it. Noise of the positions is up to 2.8 times as large, in the mean square over a body, and five times in
+/// single particles of very irregular clouds. It is not the F from which forces derive. docs/fitted.md compares
+/// stresses.
+///
+/// Throws `InputError` for views of the wrong size. A particle without bonds has F = 1.
 template <Bonds B, class X, class T, int D = B::dimension, Executor E = Serial>
 void recovered_gradients(const B& bonds, const VectorView<X, D>& x, const MatrixView<T, D>& F, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: the deformation gradients are written; give a writable view of them");
-  deformation_gradient(bonds, x, F, execute);
-  const double length = std::sqrt(static_cast<double>(bonds.standard_lambda()));
+  require_size(x, bonds.size(), "positions");
+  require_size(F, bonds.size(), "deformation gradients");
+  require_apart(F, "deformation gradients", x, "positions");
   const auto displacement = [&](std::size_t i) {
     return Vector<double, D>(x[i].template cast<double>() - bonds.reference(i));
   };
@@ -84,10 +90,8 @@ void recovered_gradients(const B& bonds, const VectorView<X, D>& x, const Matrix
     const Vector<double, D> own = displacement(i);
     detail::QuadraticFit<D> fit;
     bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {
-      const Vector<double, D> r = r0.template cast<double>() / length, u = (displacement(j) - own) / length;
-      fit.add(r, u, static_cast<double>(w));
+      fit.add(r0.template cast<double>(), displacement(j) - own, static_cast<double>(w));
     });
-    if (fit.empty()) return;
     const Eigen::Matrix<double, D, D> slopes = fit.gradient();
     for (int k = 0; k < D * D; ++k) F(i, k) = static_cast<T>(slopes(k / D, k % D) + (k % D == k / D ? 1 : 0));
   });

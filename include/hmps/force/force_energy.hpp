@@ -71,7 +71,7 @@ class ParticleState : public OneParticle {
   [[nodiscard]] double mean_dilatation() const {
     detail::require(
         !theta_.empty(),
-        "hmps: an energy uses the mean dilatation in a force without such a term; give the term pressure(...)");
+        "hmps: a term uses the mean dilatation in a force without such a term; give the term pressure(...)");
     return theta_[index];
   }
 

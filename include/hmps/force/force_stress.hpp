@@ -35,15 +35,19 @@ void require_finite_result(const View<R, N>& values, const Gradients& F, const c
   }
 }
 
-/// The first Piola-Kirchhoff stress of `term` in one particle in Pa; zero for terms without a stress.
+/// The first Piola-Kirchhoff stress of `term` in one particle in Pa; zero for terms that do not act through F.
 template <class Term, Bonds B, int D = B::dimension>
 [[nodiscard]] Matrix<double, D> stress_of_term(const Term& term, const ParticleState<B>& particle) {
-  if constexpr (requires {
-                  { term.stress(particle) } -> std::convertible_to<Matrix<double, D>>;
-                })
+  if constexpr (CouplingTerm<Term, typename B::Scalar, D>) {
+    static_assert(
+        requires {
+          { term.stress(particle) } -> std::convertible_to<Matrix<double, D>>;
+        },
+        "hmps: this term has no stress(particle), of a ParticleState, in Pa; let it return 0 if it has none");
     return term.stress(particle);
-  else
+  } else {
     return Matrix<double, D>::Zero();
+  }
 }
 
 /// dU/dtheta of `term` in one particle in Pa; zero for terms that do not resist the mean dilatation.
@@ -62,11 +66,20 @@ template <class Term, Bonds B>
 }
 
 /// The first Piola-Kirchhoff stress in Pa that `terms` give each particle of `body`: that of the law, and the averaged
-/// pressure of `MeanDilatation`, p cof F.
+/// pressure of `MeanDilatation`, p cof F. Throws `StateError` at the first particle whose law gives a stress that is
+/// not finite, before averaging spreads it.
 template <Bonds B, class... Terms, class E, int D = B::dimension>
 [[nodiscard]] std::vector<Matrix<double, D>> stresses(const BodyState<B>& body, const std::tuple<Terms...>& terms,
                                                       const typename B::template Slots<1>* scales, const E& execute) {
   const std::size_t n = body.bonds.size();
+  std::vector<Matrix<double, D>> P(n);
+  execute(n, [&](std::size_t i) {
+    const auto sum = [&](const auto&... term) {
+      return (Matrix<double, D>::Zero().eval() + ... + stress_of_term(term, body.particle(i))).eval();
+    };
+    P[i] = std::apply(sum, terms);
+  });
+  require_finite_result<D>(matrices(P), body.F, "stress by the law");
   std::vector<double> pressure(n);
   if (scales != nullptr) {
     execute(n, [&](std::size_t i) {
@@ -76,11 +89,7 @@ template <Bonds B, class... Terms, class E, int D = B::dimension>
     constexpr int means = PartsOfForce<typename B::Scalar, D, Terms...>::means;
     pressure = neighbourhood_means(body.bonds, std::move(pressure), *scales, means, execute);
   }
-  std::vector<Matrix<double, D>> P(n);
-  execute(n, [&](std::size_t i) {
-    P[i] = pressure[i] * cofactor(body.F[i]);
-    std::apply([&](const auto&... term) { ((P[i] += stress_of_term(term, body.particle(i))), ...); }, terms);
-  });
+  execute(n, [&](std::size_t i) { P[i] += pressure[i] * cofactor(body.F[i]); });
   return P;
 }
 

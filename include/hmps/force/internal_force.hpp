@@ -145,10 +145,11 @@ class InternalForce {
   }
 
   /// WRITES the Cauchy stress in Pa of every particle at positions `x` (m) to `stress`, column-major: what the law and
-  /// the mean dilatation of this force resist with together, in double. `cauchy_stresses` of a law alone lacks the
-  /// pressure of the mean dilatation, which may be most of it. `artificial`, `viscous` and pair terms have no stress of
-  /// a single particle, nor has a term of your own without `stress(particle)`: see `ParticleState`. In two dimensions
-  /// it is the part in the plane. Ignores `restrict_to`. Throws `InputError` for views of the wrong size, and
+  /// the mean dilatation of this force resist with together. `cauchy_stresses` of a law alone lacks the pressure of the
+  /// mean dilatation, which may be most of it. `artificial`, `viscous` and pair terms have no stress of a single
+  /// particle; a `CouplingTerm` of your own needs `stress(particle)`: see `ParticleState`. Computed in double, but F
+  /// and the means have the rounding of the scalar type of the bonds. In two dimensions it is the part in the plane.
+  /// Ignores `restrict_to`. Throws `InputError` for views of the wrong size and for positions that are not finite, and
   /// `StateError`, naming the particle, if a stress is not finite.
   template <class X, class R, Executor E = Serial>
   void cauchy_stresses(const VectorView<X, D>& x, const MatrixView<R, D>& stress, const E& execute = {}) const {
@@ -195,6 +196,7 @@ class InternalForce {
     require_size(x, now.size(), "positions");
     require_size(stress, now.size(), "stresses");
     require_apart(stress, "stresses", x, "positions");
+    require_finite(x, "the position");
     const detail::BodyState<B> body(now, x, scales(), Sweeps::means, execute);
     const auto P = detail::stresses(body, sweeps_.terms(), scales(), execute);
     execute(now.size(), [&](std::size_t i) { stress.set(i, measure(P[i], body.F[i])); });

@@ -52,7 +52,7 @@ struct FittedParticles {
 
   /// Appends the particles of another part of the body that was fitted separately with the same spacing, such as the
   /// piece by which it is held.
-  void append(const FittedParticles& part) {
+  void append(FittedParticles part) {
     const auto add = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
     add(positions, part.positions);
     add(volumes, part.volumes);

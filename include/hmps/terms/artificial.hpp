@@ -45,6 +45,12 @@ struct Artificial {
     return artificial_coefficient(own, Particle::dimension, particle.inverse_shape_trace()) * 0.5 * particle.misfit();
   }
 
+  /// Zero: it resists what F does not resolve.
+  template <class Particle>
+  [[nodiscard]] Matrix<double, Particle::dimension> stress(const Particle&) const {
+    return Matrix<double, Particle::dimension>::Zero();
+  }
+
   /// Throws `InputError` if the modulus is a view of the wrong size.
   void check(std::size_t size) const { detail::require_quantity(modulus, size, "moduli of the artificial force"); }
   /// Throws `InputError` for a modulus that is negative or not finite.

@@ -31,6 +31,11 @@ struct Record {
   [[nodiscard]] double energy(const Particle&) const {
     return 0;
   }
+  /// Zero: this term exerts no force.
+  template <class Particle>
+  [[nodiscard]] Matrix<double, Particle::dimension> stress(const Particle&) const {
+    return Matrix<double, Particle::dimension>::Zero();
+  }
 };
 
 /// Writes deformation gradients to `target`, one per particle of the bonds; `internal_force` throws `InputError` for

@@ -200,8 +200,8 @@ concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& 
 /// `term.check(size)`, which throws `InputError` unless they have `size` particles, and it may have
 /// `term.check_parameters(particles)`, of a `BlockOfParticles` that is hardly deformed, which throws for bad values;
 /// `internal_force` calls both in the constructor. For `InternalForce::energy`, a `PairTerm` has `term.energy(bond)`,
-/// other terms `term.energy(particle)`: see `ForceEnergy`. For `InternalForce::cauchy_stresses`, a term may have
-/// `term.stress(particle)`, and a `DilatationTerm` needs `term.pressure(particle)`: see `ParticleState`. Models: the
+/// other terms `term.energy(particle)`: see `ForceEnergy`. For `InternalForce::cauchy_stresses`, a `CouplingTerm` needs
+/// `term.stress(particle)`, and a `DilatationTerm` `term.pressure(particle)`: see `ParticleState`. Models: the
 /// results of `elastic`, `artificial`, `viscous`, `mean_dilatation`, `gravity` and `record`; a struct of your own.
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||

@@ -22,6 +22,8 @@ FittedOrgans example() {
   fitted.particles.volumes = {1e-8, 2e-8};
   fitted.particles.layers = {0, 3};
   fitted.particles.layer_spacings = {2.4e-3, 1.6e-3};
+  fitted.particles.iterations = 200;
+  fitted.particles.largest_distance = 1e-5;
   fitted.depth = {0.5, 1.5};
   return fitted;
 }
@@ -37,13 +39,16 @@ TEST(FittedFile, GivesBackEveryBit) {
   EXPECT_EQ(read->particles.volumes, written.particles.volumes);
   EXPECT_EQ(read->particles.layers, written.particles.layers);
   EXPECT_EQ(read->particles.layer_spacings, written.particles.layer_spacings);
+  EXPECT_EQ(read->particles.iterations, written.particles.iterations);
+  EXPECT_EQ(read->particles.largest_distance, written.particles.largest_distance);
   EXPECT_EQ(read->depth, written.depth);
 }
 
-TEST(FittedFile, IsNotThatOfAnotherSpacing) {
+TEST(FittedFile, IsRefusedForAnotherSpacing) {
   const TemporaryFolder folder;
   swallowing::write_fitted(folder.path(), example(), spacing);
-  EXPECT_FALSE(swallowing::read_fitted(folder.path(), 1.8e-3));
+  const std::string text = message_of<InputError>([&] { (void)swallowing::read_fitted(folder.path(), 1.8e-3); });
+  EXPECT_NE(text.find("fitted.bin holds particles of a spacing of 0.0024 m"), std::string::npos) << text;
 }
 
 TEST(FittedFile, SaysThatItIsDamaged) {

@@ -12,6 +12,7 @@
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/force/deformation_gradient.hpp"
 
 namespace recovered_gradient_test {
 
@@ -68,10 +69,10 @@ TEST(RecoveredGradients, HoldTheBendingOfThinWalls) {
   const double bend = 1e-3;
   struct Expected {
     int layers;
-    double plain, recovered;
+    double plain, recovered, across;
   };
-  for (const auto& [layers, plain, recovered] :
-       {Expected{2, 0.652, 0.987}, Expected{3, 0.826, 0.994}, Expected{4, 0.884, 0.996}}) {
+  for (const auto& [layers, plain, recovered, across] :
+       {Expected{2, 0.652, 0.987, 0}, Expected{3, 0.826, 0.994, -0.25}, Expected{4, 0.884, 0.996, -0.333}}) {
     const auto reference = wall(layers);
     auto x = reference;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -83,7 +84,23 @@ TEST(RecoveredGradients, HoldTheBendingOfThinWalls) {
     const double strain = bend * 0.5 * (layers - 1);
     EXPECT_NEAR((found.plain[middle](0, 0) - 1) / strain, plain, 2e-3) << layers << " layers";
     EXPECT_NEAR((found.recovered[middle](0, 0) - 1) / strain, recovered, 2e-3) << layers << " layers";
+    EXPECT_NEAR((found.recovered[middle](1, 1) - 1) / strain, -0.5 * recovered, 2e-3) << layers << " layers";
+    EXPECT_NEAR((found.recovered[middle](2, 2) - 1) / strain, across, 4e-3) << layers << " layers";
   }
+}
+
+TEST(RecoveredGradients, HoldTheBendingOfASheetInThePlane) {
+  std::vector<hmps::Vector<double, 2>> reference;
+  for (int a = 0; a < 13; ++a)
+    for (int c = 0; c < 3; ++c) reference.emplace_back(a, c - 1);
+  auto x = reference;
+  for (auto& r : x) r += 1e-3 * hmps::Vector<double, 2>(-(r[0] - 6) * r[1], (r[0] - 6) * (r[0] - 6) / 2);
+  const hmps::BondList<double, 2> bonds(hmps::vectors(reference), {.spacing = 1});
+  std::vector<hmps::Matrix<double, 2>> plain(x.size()), recovered(x.size());
+  hmps::deformation_gradient(bonds, hmps::vectors(x), hmps::matrices(plain));
+  hmps::recovered_gradients(bonds, hmps::vectors(x), hmps::matrices(recovered));
+  EXPECT_LT(plain[18](0, 0) - 1, 0.9e-3);
+  EXPECT_NEAR(recovered[18](0, 0) - 1, 1e-3, 2e-5);
 }
 
 TEST(RecoveredGradients, AmplifyNoiseLittle) {
