@@ -23,7 +23,7 @@ def read(path):
     runs, scatter = {}, []
     for run in found["benchmarks"]:
         if run["run_type"] == "iteration" or run.get("aggregate_name") == "median":
-            runs[run["run_name"].removesuffix("/real_time")] = run
+            runs[run["run_name"].removesuffix("/real_time").removesuffix("/repeats:1")] = run
         elif run.get("aggregate_name") == "cv":
             scatter.append(run["cpu_time"])
     return runs, found["context"], scatter
