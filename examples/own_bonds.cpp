@@ -43,7 +43,7 @@ int main() {
   std::vector<Vector> position = reference, load = reference;
   for (Vector& r : position) r = stretch * r;
   std::vector<hmps::Matrix<double, 3>> gradient(reference.size());
-  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::NeoHookean<>::from_young(20e3, 0.45)),
+  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::NeoHookean<>::from_young_poisson(20e3, 0.45)),
                                     hmps::artificial(10e3), hmps::record(hmps::matrices(gradient)));
   force(hmps::vectors(position), hmps::vectors(load));
 

@@ -29,7 +29,7 @@ int main() {
   const auto F = hmps::matrices(cells, &Cell::gradient);
 
   const hmps::BondList<double, 3> bonds(x, {.spacing = l0});  // bonds of any cloud of particles
-  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::NeoHookean<>::from_young(20e3, 0.49)),
+  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::NeoHookean<>::from_young_poisson(20e3, 0.49)),
                                     hmps::artificial(10e3), hmps::record(F));
   double before = 0, after = 0;
   for (int step = 0; step <= 2000; ++step) {

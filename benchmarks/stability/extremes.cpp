@@ -216,7 +216,7 @@ Table deformation(bool quick) {
   for (const double last : quick ? std::vector<double>{0.6} : std::vector<double>{0.4, 0.2, 0.02})
     for_each_law([&](const auto& law) { both([&](auto s) { return squeeze<decltype(s)>(law, last); }); });
   // E = 17 MPa, nu = 0.45.
-  const auto rubber = hmps::NeoHookean<>::from_young(17e6, 0.45);
+  const auto rubber = hmps::NeoHookean<>::from_young_poisson(17e6, 0.45);
   both([&](auto s) { return twist_to_failure<decltype(s)>(rubber, quick); });
   both([&](auto s) { return twist_to_failure<decltype(s)>(hmps::Continued{rubber}, quick); });
   for_each_law([&](const auto& law) { both([&](auto s) { return bend<decltype(s)>(law, quick); }); });

@@ -61,7 +61,7 @@ class Vibration {
         gradient_(size()),
         shape_(size()),
         reference_(start()),
-        tissue_(bar_.fit, x_, hmps::SaintVenantKirchhoff<>::from_young(young, beam_of(settings).poisson),
+        tissue_(bar_.fit, x_, hmps::SaintVenantKirchhoff<>::from_young_poisson(young, beam_of(settings).poisson),
                 young * settings.number("E_hat"), {.spacing = l0_, .radius_ratio = settings.number("r_e")}) {
     const auto moves = [this](std::size_t i) { return this->moves(i); };
     dt_ = settings.number("step") * hmps::stable_step(tissue_.force(), x_, v_, density,

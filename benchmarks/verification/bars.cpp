@@ -22,7 +22,7 @@ Measured ring(int n, const Method& method) {
   const double l0 = height / n;
   Body<3> body(l0, cells<3>(l0, {10 * n, n, n}));
   const hmps::LatticeBonds<double, 3> bonds(body.X(), {.spacing = l0});
-  const auto law = hmps::SaintVenantKirchhoff<>::from_young(1e5, 0.3);
+  const auto law = hmps::SaintVenantKirchhoff<>::from_young_poisson(1e5, 0.3);
   Measured measured{l0, body.size(), {}};
   with_force(method, body.F(), bonds, law, [&](auto& force) {
     for (const double root : {scenes::free_root, 7.853204624095838, 0.0}) {
@@ -86,7 +86,7 @@ Measured throw_column(int n, const Method& method) {
   Body<3> body(l0, cells<3>(l0, {6 * n, n, n}, method.held));
   const auto moves = [&](std::size_t i) { return body.reference[i][0] > 0; };
   const hmps::LatticeBonds<double, 3> bonds(body.X(), {.spacing = l0});
-  const auto law = hmps::NeoHookean<>::from_young(17e6, 0.45);
+  const auto law = hmps::NeoHookean<>::from_young_poisson(17e6, 0.45);
   for (std::size_t i = 0; i < body.size(); ++i)
     if (moves(i)) body.velocity[i] = Vector(0, 10 * body.reference[i][0] / 6, 0);
   return with_force(method, body.F(), bonds, law, [&](auto& force) {

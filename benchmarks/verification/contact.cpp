@@ -47,7 +47,7 @@ Measured press(int n, const Method& method) {
   const auto middle =
       std::stable_partition(points.begin(), points.end(), [&](const Vector& x) { return x[1] < height; });
   const auto first = static_cast<std::size_t>(middle - points.begin());
-  const auto law = hmps::LinearElastic<>::from_young(young, 0.0);
+  const auto law = hmps::LinearElastic<>::from_young_poisson(young, 0.0);
   const auto depth = [points, l0](std::size_t i) { return std::abs(points[i][1] - height) / l0; };
   Body<2> body(l0, points);
   const auto same_block = [first](std::size_t i, std::size_t j) { return (i < first) == (j < first); };

@@ -17,7 +17,7 @@ namespace {
 struct Plate {
   double length, height, young, poisson, density;
 
-  [[nodiscard]] auto law() const { return hmps::SaintVenantKirchhoff<>::from_young(young, poisson); }
+  [[nodiscard]] auto law() const { return hmps::SaintVenantKirchhoff<>::from_young_poisson(young, poisson); }
   /// The frequency of its first mode, which is that of a beam with the moduli of plane strain.
   [[nodiscard]] double frequency() const {
     return scenes::timoshenko_frequency({.length = length,

@@ -119,7 +119,7 @@ Measured cook(int n, const Method& method) {
     share[i] = depth < 1 ? 1.5 : depth < 2 ? -0.5 : 0;
     total += share[i] * body.volume();
   }
-  with_force(method, body.F(), bonds, hmps::LinearElastic<>::from_young(70e6, 1.0 / 3), [&](auto& internal) {
+  with_force(method, body.F(), bonds, hmps::LinearElastic<>::from_young_poisson(70e6, 1.0 / 3), [&](auto& internal) {
     const auto force = [&](const auto& x, const auto& v, const auto& f) {
       internal(x, v, f);
       for (std::size_t i = 0; i < f.size(); ++i) f(i, 1) += traction * right * share[i] / total;

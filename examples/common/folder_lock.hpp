@@ -23,22 +23,24 @@ class FolderLock {
   enum class Taken { fail, wait };
 
   /// Locks the folder at `path`, which must exist, by its file .lock. Where another process has locked it, throws
-  /// `InputError` that names folder and process, or waits until it is free. Where the file system knows no locks, says
-  /// so on standard error and goes on.
+  /// `InputError` that names folder and process, or says so on standard error and waits until it is free. Where the
+  /// file system knows no locks, says so on standard error and goes on.
   explicit FolderLock(const fs::path& path, Taken taken = Taken::fail) {
     const fs::path name = path / ".lock";
     file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     require(file_ >= 0, "cannot write ", name.string(), ": ", std::strerror(errno),
             "; check the permissions of the output folder");
-    int problem = 0;
-    do problem = ::flock(file_, taken == Taken::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-    while (problem == EINTR);
+    int problem = lock(LOCK_EX | LOCK_NB);
     if (problem == EWOULDBLOCK) {
       const std::string owner = content();
-      ::close(file_);
-      throw hmps::InputError(message("the folder ", path.string(), " is being written by another run",
-                                     owner.empty() ? "" : message(" (process ", owner, ")"),
-                                     "; wait for its end, or choose another folder with --out"));
+      const std::string what = message("the folder ", path.string(), " is being written by another run",
+                                       owner.empty() ? "" : message(" (process ", owner, ")"));
+      if (taken == Taken::fail) {
+        ::close(file_);
+        throw hmps::InputError(message(what, "; wait for its end, or choose another folder with --out"));
+      }
+      std::cerr << message(what, "; waiting for it\n") << std::flush;
+      problem = lock(LOCK_EX);
     }
     if (problem != 0)
       std::cerr << message("warning: cannot lock ", name.string(), ": ", std::strerror(problem),
@@ -52,6 +54,13 @@ class FolderLock {
   ~FolderLock() { ::close(file_); }
 
  private:
+  /// 0 once the lock is taken, or the error number.
+  [[nodiscard]] int lock(int how) const {
+    int problem = 0;
+    do problem = ::flock(file_, how) == 0 ? 0 : errno;
+    while (problem == EINTR);
+    return problem;
+  }
   [[nodiscard]] std::string content() const {
     std::array<char, 32> text{};
     const ssize_t size = ::pread(file_, text.data(), text.size(), 0);

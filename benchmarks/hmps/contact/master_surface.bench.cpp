@@ -45,8 +45,8 @@ struct Wall {
       x.push_back(r);
       A.push_back(hmps::right_cauchy_green<S, 3>(B));
       quads.emplace_back();
-      hmps::detail::spread<S>(r, quads.back().x);
-      for (int c = 0; c < 3; ++c) hmps::detail::spread<S>(A.back().col(c), quads.back().A[c]);
+      hmps::detail::set_quad<S>(r, quads.back().x);
+      for (int c = 0; c < 3; ++c) hmps::detail::set_quad<S>(A.back().col(c), quads.back().A[c]);
     }
   }
 };

@@ -46,9 +46,9 @@ void add(const std::string& name, const Law& law) {
   const auto law = hmps::MooneyRivlin<double>::from_young(bench::young, bench::d1);
   add("mooney_rivlin", law);
   add("mooney_rivlin_continued", hmps::Continued{law, 0.2});
-  add("neo_hookean", hmps::NeoHookean<double>::from_young(bench::young, 0.45));
-  add("saint_venant_kirchhoff", hmps::SaintVenantKirchhoff<double>::from_young(bench::young, 0.45));
-  add("linear_elastic", hmps::LinearElastic<double>::from_young(bench::young, 0.45));
+  add("neo_hookean", hmps::NeoHookean<double>::from_young_poisson(bench::young, 0.45));
+  add("saint_venant_kirchhoff", hmps::SaintVenantKirchhoff<double>::from_young_poisson(bench::young, 0.45));
+  add("linear_elastic", hmps::LinearElastic<double>::from_young_poisson(bench::young, 0.45));
   return true;
 }();
 

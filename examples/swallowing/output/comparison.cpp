@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "../../common/canvas.hpp"
+#include "options.hpp"
 
 namespace swallowing {
 
@@ -30,7 +31,8 @@ template <class... Values>
   if (!result.summary) return "not run";
   if (result.summary->fold_time) return format("%.3f s", *result.summary->fold_time);
   if (result.summary->failure) return "stopped";
-  return result.summary->time > 2.05 - 1e-4 ? "did not fold" : format("not until %.4g s", result.summary->time);
+  return result.summary->time > end_of_swallow - 1e-4 ? "did not fold"
+                                                      : format("not until %.4g s", result.summary->time);
 }
 [[nodiscard]] std::string papers(const Case& paper) {
   return paper.fold_time ? format("%.2f s", *paper.fold_time) : "did not fold";
@@ -128,7 +130,7 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
 void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4>& results) {
   constexpr double left = 92, top = 84, width = 1000, height = 600, table = left + width + 56;
   Canvas canvas(1640, 790);
-  double begin = 1.3, end = 2.05, low = -60, high = 90;
+  double begin = 1.3, end = end_of_swallow, low = -60, high = 90;
   for (const CaseResult& result : results)
     for (const Sample& sample : result.samples)
       if (sample.time >= begin && std::isfinite(sample.tip_angle)) {

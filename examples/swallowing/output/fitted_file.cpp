@@ -29,7 +29,7 @@ void write_fitted(const std::filesystem::path& out, const FittedOrgans& fitted, 
   file.set("layer spacings", fitted.particles.layer_spacings);
   file.set("depth", fitted.depth);
   file.set("iterations", fitted.particles.iterations);
-  file.set("largest distance", fitted.particles.largest_distance);
+  file.set("largest deviation", fitted.particles.largest_deviation);
   file.save(out / file_name);
 }
 
@@ -53,7 +53,7 @@ std::optional<FittedOrgans> read_fitted(const std::filesystem::path& out, double
   file->get("layers", particles.layers);
   file->get("layer spacings", particles.layer_spacings);
   particles.iterations = file->value<int>("iterations");
-  particles.largest_distance = file->value<double>("largest distance");
+  particles.largest_deviation = file->value<double>("largest deviation");
   return fitted;
 }
 

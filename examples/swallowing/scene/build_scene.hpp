@@ -183,8 +183,8 @@ inline void require_particles(const Scene& scene, Model model) {
     if (body.organ[i] != Organ::epiglottis || std::abs(x[1]) > 2.5) continue;
     const double arc = anatomy.epiglottis.arc(x);
     const auto index = static_cast<hmps::Index>(i);
-    if (arc < 5) scene.base.push_back(index);
-    if (arc > 0.45 * Epiglottis::length && arc < 0.62 * Epiglottis::length) scene.centre.push_back(index);
+    if (arc < base_of_leaf) scene.base.push_back(index);
+    if (in_middle_of_leaf(arc)) scene.centre.push_back(index);
     if (arc > Epiglottis::length - 3) scene.tip.push_back(index);
   }
   detail::declare_contacts(scene, body);

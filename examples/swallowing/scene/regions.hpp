@@ -34,6 +34,13 @@ struct TongueRegion {
 inline constexpr std::array<TongueRegion, 8> tongue_regions{
     {{-54, 8}, {1, 13}, {50, 10}, {74, 4}, {90, 4}, {106, 4}, {122, 4}, {138, 4}}};
 
+/// Length in mm of the base of the leaf that region E holds, from its lower end.
+inline constexpr double base_of_leaf = 5;
+/// Whether the middle of the leaf, which region F moves, contains the `arc` in mm from its lower end.
+[[nodiscard]] inline bool in_middle_of_leaf(double arc) {
+  return arc > 0.45 * Epiglottis::length && arc < 0.62 * Epiglottis::length;
+}
+
 /// Width in mm of the part of the tongue's side, from its rim inwards, that region A holds: one and a half times the
 /// coarsest spacing, so that a column of any lattice lies in it.
 inline constexpr double rim_width = 3.6;
@@ -89,8 +96,8 @@ inline constexpr double rim_width = 3.6;
     }
     case Organ::epiglottis: {
       const double arc = anatomy.epiglottis.arc(x);
-      if (arc < 5) return E;
-      if (model == Model::X && y < 4 && arc > 0.45 * Epiglottis::length && arc < 0.62 * Epiglottis::length) return F;
+      if (arc < base_of_leaf) return E;
+      if (model == Model::X && y < 4 && in_middle_of_leaf(arc)) return F;
       return -1;
     }
     default:

@@ -16,7 +16,8 @@ namespace swallowing {
 
 /// The energies stored in the deforming body, in J.
 struct StoredEnergy {
-  double strain, artificial;
+  double strain;  ///< of the law, and of the mean dilatation on fitted particles
+  double artificial;
 };
 
 /// The internal forces of the deforming body, whatever bonds and terms make them. `S` is the scalar type of velocities

@@ -151,8 +151,13 @@ class TissueOn final : public SoftTissue<S> {
   }
   [[nodiscard]] StoredEnergy stored_energy(const Places& x, const Gradients& F) const override {
     const double volume = spacing_ * spacing_ * spacing_;
-    return {hmps::strain_energy(F, law<Bonds>(parameters_, materials_), volume, execute_),
-            hmps::artificial_energy(bonds_, x, F, stabiliser<Bonds>(parameters_, materials_), volume, execute_)};
+    StoredEnergy stored{
+        hmps::strain_energy(F, law<Bonds>(parameters_, materials_), volume, execute_),
+        hmps::artificial_energy(bonds_, x, F, stabiliser<Bonds>(parameters_, materials_), volume, execute_)};
+    if constexpr (!on_lattice<Bonds>)
+      stored.strain +=
+          hmps::mean_dilatation_energy<2>(bonds_, F, hmps::scalars(parameters_.mean_dilatation), volume, execute_);
+    return stored;
   }
   [[nodiscard]] hmps::StableStep stable_step(const Places& x, const Velocities& v,
                                              const hmps::StableStepSettings& settings) override {

@@ -25,7 +25,7 @@ struct StableStepSettings {
   double perturbation = 0;   ///< trial displacement over the spacing; 0: 1e-2 for float, 1e-5 for double
   std::uint64_t seed = 1;    ///< seed of the noise from which the search starts
   /// The `mode` of an earlier result for the same particles, to start from instead of noise; see `stable_step`.
-  std::span<const double> start = {};
+  std::vector<double> start = {};
   int refresh_iterations = 4;  ///< minimum number of iterations with a `start`
   /// Whether particle i follows the forces, as opposed to a forced displacement. Empty: all particles follow.
   std::function<bool(std::size_t)> moves = {};

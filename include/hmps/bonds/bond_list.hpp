@@ -111,7 +111,7 @@ class BondList : public Blocks<K, D> {
 
   [[nodiscard]] std::size_t bytes() const { return Base::bytes() + places_.bytes() + shares_.bytes() + runs_.bytes(); }
 
-  /// The first slot that the last unsplit row of `block` reads.
+  /// See `Blocks::last_slot`: the first slot of the last unsplit row.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
     const auto& group = runs_.groups[block];
     if (group.split == group.row) return block * width;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
+#include "hmps/core/types.hpp"
 #include "hmps/lanes/lanes.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -88,6 +90,8 @@ class BondRuns {
         if (of == h) fill(h, alone[h][k], row);
       }
     }
+    require(starts.size() < no_index, "hmps: the bonds of ", groups.size() * Lanes<K>::width,
+            " particles are more than a 32-bit index can number; divide the body into parts");
     groups.push_back({static_cast<std::uint32_t>(weights.size()), 0, static_cast<std::uint32_t>(starts.size())});
   }
 };

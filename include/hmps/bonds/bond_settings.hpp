@@ -10,6 +10,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -33,8 +34,7 @@ struct BondSettings {
 
 namespace detail {
 inline void validate(const BondSettings& settings) {
-  require(detail::is_finite(settings.spacing) && settings.spacing > 0, "hmps: the particle spacing is ",
-          settings.spacing, " m; it must be positive");
+  require_spacing(settings.spacing, "the particles");
   require(detail::is_finite(settings.radius_ratio) && settings.radius_ratio > 0 && settings.radius_ratio < 16,
           "hmps: the effective radius is ", settings.radius_ratio,
           " spacings; it must be positive and below 16 (the paper has 1.75)");

@@ -23,16 +23,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The order in which the sweeps over `LatticeBonds` visit particles on a cubic lattice of `spacing` (m): particle
-/// `order[s]` is at position s. Arrays in this order are read sequentially. Throws `InputError` for particles off the
-/// lattice or at the same site.
-template <class T, int D>
-[[nodiscard]] std::vector<Index> lattice_order(const VectorView<T, D>& reference, double spacing) {
-  return detail::LatticeCells<D>(reference, spacing).order;
-}
-
-/// The axes of `lattice_order`, the slowest first. Pass the axes of a whole body as `BondSettings::axes` of its parts.
-/// Throws as `lattice_order` does.
+/// The axes of the order in which the sweeps over `LatticeBonds` visit particles on a cubic lattice of `spacing` (m),
+/// the slowest first. Pass the axes of a whole body as `BondSettings::axes` of its parts. Throws `InputError` for
+/// particles off the lattice or at the same site.
 template <class T, int D>
 [[nodiscard]] std::array<int, 3> lattice_axes(const VectorView<T, D>& reference, double spacing) {
   std::array<int, 3> axes{};
@@ -77,7 +70,7 @@ class LatticeBonds : public Blocks<K, D> {
 
   [[nodiscard]] std::size_t bytes() const { return Base::bytes() + rows_.bytes(); }
 
-  /// The first slot that the last row of `block` reads.
+  /// See `Blocks::last_slot`: the first slot of the last row.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const {
     const auto *first = rows_.begin(block * directions), *end = rows_.begin((block + 1) * directions);
     return first == end ? block * width : static_cast<std::size_t>(std::max((end - 1)->first, 0));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ template <class T, int D>
 void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
                                typename VectorView<T, D>::Scalar radius, bool also_alone = true) {
   constexpr std::size_t most_samples = 64;
-  constexpr double ball = D == 3 ? 4.18879 : 3.14159;  // volume for radius 1: the number of particles at spacing 1
+  constexpr double ball = (D == 3 ? 4. / 3 : 1.) * std::numbers::pi;  // volume for radius 1, particles at spacing 1
   const double usual = std::max(2.0 * D, ball * std::pow(settings.radius_ratio, D));
   const std::size_t n = search.points().size(), samples = std::min(n, most_samples);
   if (n < 2) return;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hmps/contact/metaball_contact.hpp"
+#include "hmps/contact/contact_declaration.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "hmps/contact/contact_declaration.hpp"
 #include "hmps/contact/contact_forces.hpp"
-#include "hmps/contact/metaball_contact.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/step.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -31,7 +32,7 @@ template <class X, class V, class G, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const V& v, const G& F, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(gather_batch % width == 0);
-  suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, detail::no_particle);
+  suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, detail::no_index);
   execute(suspect_.size(), [&](std::size_t q) {
     const std::size_t end = std::min(masters_.size(), (q + 1) * gather_batch);
     for (std::size_t begin = q * gather_batch; begin < end; begin += width) {
@@ -73,7 +74,7 @@ template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::check_suspects(const X& x, const V& v, const G& F) const {
   for (std::size_t q = 0; q < suspect_.size(); ++q) {
-    if (suspect_[q] == detail::no_particle) continue;
+    if (suspect_[q] == detail::no_index) continue;
     for (std::size_t t = suspect_[q]; t < std::min(masters_.size(), (q + 1) * gather_batch); ++t) {
       const Index i = lists_.active().awake()[t].particle;
       detail::require_motion<D>(x[i].template cast<double>(), v[i].template cast<double>(), i);
@@ -95,7 +96,7 @@ bool MetaballContact<S, D, Kernel, Friction, Penalty>::touch(std::size_t r, cons
   const Index* entry = lists_.active().entry_of().data() + begin;
   RowState& state = state_[r];
   Quad place;
-  detail::spread<S>(lists_.place_of(x, slave), place);
+  detail::set_quad<S>(lists_.place_of(x, slave), place);
 
   const detail::SlaveContact<S, D> contact = detail::slave_contact<S, D, Kernel>(
       lists_.normal_density(), place,
@@ -168,7 +169,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V&
 /// Checks each organ once, in the first call after it was added.
 template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X>
-void MetaballContact<S, D, Kernel, Friction, Penalty>::require_scene(const X& x) {
+void MetaballContact<S, D, Kernel, Friction, Penalty>::require_plausible_organs(const X& x) {
   constexpr std::size_t fewest = 16, most_samples = 64;  // for fewer, distances say little
   const detail::OrganPairs& organs = lists_.organs();
   detail::require(organs.organs().size() < 2 || !organs.pairs().empty(), "hmps: contact has ", organs.organs().size(),
@@ -200,12 +201,11 @@ template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class X, class V, class G, class E>
 ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const X& x, const V& v, const G& F, double dt,
                                                                           const E& execute) {
-  detail::require(detail::is_finite(dt) && dt > 0, "hmps: the step of a contact evaluation is ", dt,
-                  " s; give a positive number");
+  detail::require_step(dt);
   require_size(x, x.size(), "positions");
   require_size(v, x.size(), "velocities");
   lists_.organs().require_particles(x.size());
-  require_scene(x);
+  require_plausible_organs(x);
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
   history_.next_call();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "hmps/contact/metaball_contact.hpp"
+#include "hmps/contact/contact_declaration.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/step.hpp"
@@ -149,7 +149,7 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
       } else if constexpr (has_spring) {  // clear the slip, so that none acts once friction is switched on
         history_.slip(row.slot).value = Point::Zero();
       }
-      detail::spread<S>(force, force_[r]);
+      detail::set_quad<S>(force, force_[r]);
     }
     batches_[q] = result;
   });
@@ -176,7 +176,7 @@ MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
     if (!(weight_[e] > S(0))) continue;
     const Index j = lists_.active().master_of()[e];
     Quad place;
-    detail::spread<S>((motion_.between(row.slave, j) / spacing).eval(), place);
+    detail::set_quad<S>((motion_.between(row.slave, j) / spacing).eval(), place);
     Quad step = motion_.moved(j);
     step -= own;
     place -= step * (S(0.5) / spacing);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "hmps/contact/metaball_contact.hpp"
+#include "hmps/contact/contact_declaration.hpp"
 #include "hmps/contact/overlaps.hpp"
 #include "hmps/core/abi.hpp"
 

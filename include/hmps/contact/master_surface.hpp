@@ -17,7 +17,7 @@ namespace hmps::inline HMPS_ABI {
 /// Lengths in m; `r` = r_ij = x_j - x_i. The kernel depends only on |F_j^-1 r_ij|^2 = r_ij . A_j r_ij with A_j = F_j^-T
 /// F_j^-1, so that one product gives both sum and gradient. A rotation of the master changes nothing; rigid masters may
 /// use the identity.
-template <class S, int D, Metaball Kernel = PaperMetaball>
+template <class S, int D, Metaball Kernel>
 class MasterSurface {
   using Quad = detail::Quad<S>;
 
@@ -26,8 +26,8 @@ class MasterSurface {
   /// `over_radius_squared` is 1 / r_e^2 in 1/m2.
   S reach(const Matrix<S, D>& A, const Vector<S, D>& r, S over_radius_squared) {
     Quad columns[std::size_t{D}], place;
-    for (int c = 0; c < D; ++c) detail::spread<S>(A.col(c), columns[c]);
-    detail::spread<S>(r, place);
+    for (int c = 0; c < D; ++c) detail::set_quad<S>(A.col(c), columns[c]);
+    detail::set_quad<S>(r, place);
     return reach(columns, place, over_radius_squared);
   }
   /// The same from the columns of A_j and r_ij, padded with zeros.
@@ -46,8 +46,8 @@ class MasterSurface {
   /// Adds one master with metaball value `c`, B = F_j^-1 and its velocity to the means of \paper{31, 33}.
   void mean(S c, const Matrix<S, D>& B, const Vector<S, D>& v) {
     Quad columns[std::size_t{D}], velocity;
-    for (int q = 0; q < D; ++q) detail::spread<S>(B.col(q), columns[q]);
-    detail::spread<S>(v, velocity);
+    for (int q = 0; q < D; ++q) detail::set_quad<S>(B.col(q), columns[q]);
+    detail::set_quad<S>(v, velocity);
     mean(c, columns, velocity);
   }
   HMPS_INLINE void mean(S c, const Quad* B, const Quad& v) {

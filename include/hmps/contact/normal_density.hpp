@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "hmps/contact/metaball.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -25,14 +27,13 @@ namespace hmps::inline HMPS_ABI {
 /// The inverse is a table with smooth interpolation (relative error below 1e-6 l0). Z falls monotonically only near the
 /// surface: below `deepest()`, where its slope has dropped to a quarter of the steepest, it saturates and no longer
 /// determines the depth. The inverse then stays at `deepest()` and flags the slave as deep.
-template <class S, int D, Metaball Kernel = PaperMetaball>
+template <class S, int D, Metaball Kernel>
 class NormalDensity {
  public:
   /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite, for a kernel that forms no wall, and
   /// for one whose slope is not the derivative of its value: forces would not point out of the wall.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
-    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a metaball wall is ", spacing,
-                    " m; give the positive distance between neighbouring particles in the reference configuration");
+    detail::require_spacing(spacing, "a metaball wall");
     require_slope();
     find_deepest();
     const double top = in_spacings(deepest_);
@@ -121,7 +122,7 @@ class NormalDensity {
       for (std::size_t q = 0; q < 8; ++q) {
         const double node = q < 4 ? -x[3 - q] : x[q - 4], weight = q < 4 ? w[3 - q] : w[q - 4];
         const double a = reach * (p + 0.5 + 0.5 * node) / panels;
-        const double measure = D == 3 ? 2 * 3.14159265358979323846 * a : 2;
+        const double measure = D == 3 ? 2 * std::numbers::pi * a : 2;
         sum += weight * 0.5 * reach / panels * measure * Kernel::value((h * h + a * a) / (radius * radius));
       }
     return sum;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hmps/contact/friction.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
@@ -24,9 +25,9 @@ namespace hmps::inline HMPS_ABI {
 /// A body with a surface that may touch others. Indices refer to the user's particles. A particle may be slave and
 /// master (the usual case) and belong to several organs.
 struct Organ {
-  std::string name;                  ///< For messages.
-  std::span<const Index> slaves{};   ///< The outermost layer, which is kept out of walls.
-  std::span<const Index> masters{};  ///< The wall: the two outermost layers carry all of Z above y = 0.
+  std::string name;              ///< For messages.
+  std::vector<Index> slaves{};   ///< The outermost layer, which is kept out of walls.
+  std::vector<Index> masters{};  ///< The wall: the two outermost layers carry all of Z above y = 0.
   /// Whether a particle follows a forced displacement, so that forces do not move it (default: none). Read by
   /// `CorrectedFriction`, damping and `MetaballContact::kick`.
   std::function<bool(Index)> prescribed{};
@@ -43,7 +44,7 @@ enum class Roles { both, only_first_is_slave, only_second_is_slave };
 struct PairSettings {
   Roles roles = Roles::both;
   /// Slaves of either organ that do not take part in this pair: see `exclude_attached`.
-  std::span<const Index> excluded_slaves{};
+  std::vector<Index> excluded_slaves{};
   /// `excluded(slave, master)`: whether these two never touch. Called when lists are built, from any thread.
   std::function<bool(Index, Index)> excluded{};
   std::optional<double> friction{};             ///< mu_tan of this pair, if not that of `ContactSettings`.

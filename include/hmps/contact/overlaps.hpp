@@ -41,8 +41,8 @@ template <int D>
 struct OverlapParticles {
   std::vector<Index> particle;
   std::vector<Vector<double, D>> x;
-  std::vector<Matrix<double, D>> F;  // may be empty if it is not needed
-  std::vector<double> radius;        // r_0 in m, of slaves
+  std::vector<Matrix<double, D>> F;
+  std::vector<double> radius;  // r_0 in m, of slaves
 };
 
 /// The outward direction of a surface: for each particle of `skin`, the unit vector away from the surrounding masters;

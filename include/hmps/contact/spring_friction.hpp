@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hmps/contact/penalty.hpp"
+#include "hmps/contact/friction.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
 

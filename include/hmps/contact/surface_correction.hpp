@@ -13,6 +13,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/nearest_spacing.hpp"
@@ -44,8 +45,7 @@ class SurfaceCorrection {
   template <class T, class Shape>
   SurfaceCorrection(const VectorView<T, D>& reference, std::span<const Index> skin, const Shape& shape, double spacing)
       : skin_(skin.begin(), skin.end()) {
-    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a surface correction is ", spacing,
-                    " m; give the positive distance between neighbouring particles in the reference configuration");
+    detail::require_spacing(spacing, "a surface correction");
     require_spacing(reference, spacing);
     std::size_t outside = 0;
     for (const Index i : skin_) {

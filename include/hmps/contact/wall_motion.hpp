@@ -57,7 +57,7 @@ class WallMotion {
     } else {
       const Tensor inertia = Tensor::Identity() * size - squares;
       const Point angle = inverse<S, D>(inertia) * Point(moment(2, 1), moment(0, 2), moment(1, 0));
-      spin_ << S(0), -angle[2], angle[1], angle[2], S(0), -angle[0], -angle[1], angle[0], S(0);
+      spin_ = skew<S>(angle);
     }
   }
 
@@ -109,7 +109,7 @@ class ParticleMotion {
     execute((particle.size() + chunk - 1) / chunk, [&](std::size_t q) {
       for (std::size_t n = q * chunk; n < std::min(particle.size(), (q + 1) * chunk); ++n) {
         const Vector<double, D> place = x[particle[n]].template cast<double>();
-        spread<S>(known ? (place - place_[n]).template cast<S>().eval() : Vector<S, D>::Zero().eval(), moved_[n]);
+        set_quad<S>(known ? (place - place_[n]).template cast<S>().eval() : Vector<S, D>::Zero().eval(), moved_[n]);
         place_[n] = place;
       }
     });

@@ -2,8 +2,8 @@
 #pragma once
 
 /// Forces inlining, so that packs of lanes stay in registers: write `HMPS_INLINE` before a function,
-/// `HMPS_INLINE_LAMBDA` after the parameters of a lambda. Write `HMPS_COLD` before functions that run only after an
-/// error: they are neither inlined nor optimised for speed.
+/// `HMPS_INLINE_LAMBDA` after the parameters of a lambda. Write `HMPS_COLD` before functions that run after an error or
+/// in a few steps only: they are neither inlined nor optimised for speed.
 #if defined(__GNUC__) || defined(__clang__)
 #define HMPS_INLINE [[gnu::always_inline]] inline
 #define HMPS_INLINE_LAMBDA __attribute__((always_inline))

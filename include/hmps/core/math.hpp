@@ -56,6 +56,14 @@ template <class T, int D>
   }
 }
 
+/// The matrix with `skew(a) b = a x b`.
+template <class T>
+[[nodiscard]] Matrix<T, 3> skew(const Vector<T, 3>& a) {
+  Matrix<T, 3> m;
+  m << T(0), -a[2], a[1], a[2], T(0), -a[0], -a[1], a[0], T(0);
+  return m;
+}
+
 /// The cofactor matrix of `M`, det(M) M^-T: the derivative of the determinant. Finite for every `M`.
 template <class T, int D>
 [[nodiscard]] HMPS_INLINE Matrix<T, D> cofactor(const Matrix<T, D>& M) {

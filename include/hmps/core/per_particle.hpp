@@ -92,6 +92,14 @@ template <PerParticle Q>
     return detail::value_at(quantity, OneParticle{i});
 }
 
+namespace detail {
+/// The unit of volumes in `D` dimensions, for messages.
+template <int D>
+[[nodiscard]] constexpr const char* unit_of_volume() {
+  return D == 3 ? "m3" : "m2";
+}
+}  // namespace detail
+
 /// Throws `InputError` unless the quantity is positive and finite at each of the `size` particles; the message calls it
 /// `name`, in `unit`.
 template <PerParticle Q>

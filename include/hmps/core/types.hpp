@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
@@ -36,5 +37,8 @@ struct RequireReal {
                 "decimal point, such as 7e3 or 0.5");
   static constexpr bool value = true;
 };
+
+/// The index of no particle, vertex or triangle.
+inline constexpr Index no_index = std::numeric_limits<Index>::max();
 
 }  // namespace hmps::inline HMPS_ABI::detail

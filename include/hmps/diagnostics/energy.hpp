@@ -37,7 +37,7 @@ template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
                                     const E& execute = {}) {
   require_view(v, "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
-  require_positive(volume, v.size(), "volume", "m3");
+  require_positive(volume, v.size(), "volume", detail::unit_of_volume<D>());
   return reduce(
       v.size(), 0.0,
       [&](std::size_t i) {
@@ -57,7 +57,7 @@ template <class T, int D, class Material, PerParticle Vol, Executor E = Serial>
                                    const E& execute = {}) {
   detail::require_recorded(F);
   detail::require_material(material, F.size());
-  require_positive(volume, F.size(), "volume", "m3");
+  require_positive(volume, F.size(), "volume", detail::unit_of_volume<D>());
   return reduce(
       F.size(), 0.0,
       [&](std::size_t i) {
@@ -117,7 +117,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   require_size(x, bonds.size(), "positions");
   require_size(F, bonds.size(), "deformation gradients");
   detail::require_recorded(F);
-  require_positive(volume, bonds.size(), "volume", "m3");
+  require_positive(volume, bonds.size(), "volume", detail::unit_of_volume<D>());
   detail::require_volumes_of(bonds, volume);
   detail::require_not_negative(modulus, bonds.size(), "modulus of the stabiliser", "Pa");
   using K = typename B::Scalar;
@@ -153,7 +153,7 @@ template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, E
   static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
   require_size(F, bonds.size(), "deformation gradients");
   detail::require_recorded(F);
-  require_positive(volume, bonds.size(), "volume", "m3");
+  require_positive(volume, bonds.size(), "volume", detail::unit_of_volume<D>());
   detail::require_volumes_of(bonds, volume);
   const auto scales = detail::neighbourhood_scales(bonds);
   detail::require_not_negative(bulk, bonds.size(), "bulk modulus of mean_dilatation_energy", "Pa");

@@ -36,12 +36,13 @@ template <int D>
 /// @param v        velocities in m/s
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// @param volume   of a particle in m^D, a number or a `ScalarView`
+/// Throws `InputError` for views of different sizes and for a density or a volume that is not positive and finite.
 template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] Vector<double, D> linear_momentum(const VectorView<T, D>& v, const Rho& density, const Vol& volume,
                                                 const E& execute = {}) {
   require_view(v, "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
-  require_positive(volume, v.size(), "volume", "m3");
+  require_positive(volume, v.size(), "volume", detail::unit_of_volume<D>());
   using Sum = Vector<double, D>;
   return reduce(
       v.size(), Sum(Sum::Zero()),
@@ -52,7 +53,8 @@ template <class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
       [](const Sum& a, const Sum& b) -> Sum { return a + b; }, execute);
 }
 
-/// Angular momentum in kg m2/s about the point `about` (m): the sum of (x - about) x m v.
+/// Angular momentum in kg m2/s about the point `about` (m): the sum of (x - about) x m v. Throws as `linear_momentum`
+/// does, and for a point that is not finite.
 template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E = Serial>
 [[nodiscard]] Axial<D> angular_momentum(const VectorView<X, D>& x, const VectorView<T, D>& v, const Rho& density,
                                         const Vol& volume, const Vector<double, D>& about = Vector<double, D>::Zero(),
@@ -60,7 +62,7 @@ template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E 
   require_view(x, "positions");
   require_size(v, x.size(), "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
-  require_positive(volume, v.size(), "volume", "m3");
+  require_positive(volume, v.size(), "volume", detail::unit_of_volume<D>());
   detail::require(detail::all_finite(about), "hmps: the angular momentum was requested about the point (",
                   about.transpose(), ") m; give finite numbers");
   using Sum = Axial<D>;

@@ -20,7 +20,8 @@
 /// the same names in the plural for all particles. The first Piola-Kirchhoff stress of one particle is
 /// `first_piola_kirchhoff`. It is the stress of the law alone. **In a force with `mean_dilatation`, most of the
 /// pressure is missing**, because the law has only its own share of the bulk modulus: use
-/// `InternalForce::cauchy_stresses`, which adds the rest. The von Mises stress does not depend on pressure. References:
+/// `InternalForce::cauchy_stresses`, which adds the rest. The von Mises stress does not depend on pressure. For thin
+/// walls see `impose_plane_stress`. References:
 /// Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 5; Holzapfel,
 /// Nonlinear Solid Mechanics, 2000, chapter 3.
 namespace hmps::inline HMPS_ABI {
@@ -38,8 +39,7 @@ template <class T>
 /// dimensions it is the part in the plane. `F` must not be singular.
 template <class Law, class T, int D>
 [[nodiscard]] Matrix<T, D> cauchy_stress(const Law& law, const Matrix<T, D>& F) {
-  const Matrix<T, D> P = first_piola_kirchhoff(law, F);
-  return P * F.transpose() / determinant(F);
+  return detail::cauchy_of<T, D>(first_piola_kirchhoff(law, F), F);
 }
 
 /// The von Mises stress in Pa of a Cauchy stress: sqrt(3/2 s : s), with s the deviator of its symmetric part. In simple

@@ -10,7 +10,9 @@
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/bonds/followed_bonds.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/cell_volume.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/step.hpp"
 #include "hmps/core/types.hpp"
@@ -20,6 +22,7 @@
 #include "hmps/force/force_sweeps.hpp"
 #include "hmps/force/restricted_blocks.hpp"
 #include "hmps/lanes/staging.hpp"
+#include "hmps/laws/law.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -53,8 +56,7 @@ class InternalForce {
  public:
   /// Throws `InputError` for bonds without particles, or if a term rejects the bonds, for example because it holds a
   /// view of the wrong size.
-  explicit InternalForce(const B& bonds, Terms... terms)
-      : followed_(bonds), bonds_(&bonds), sweeps_(bonds, std::move(terms)...) {
+  explicit InternalForce(const B& bonds, Terms... terms) : followed_(bonds), sweeps_(bonds, std::move(terms)...) {
     // Not earlier: the class of a law may be complete only when a force is made.
     static_assert((detail::RequireTerm<Terms, K, D>::value && ...));
   }
@@ -66,12 +68,9 @@ class InternalForce {
   template <class Moves>
   requires std::predicate<Moves&, std::size_t>
   void restrict_to(Moves&& moves) {
-    bonds_ = &bonds();
-    if constexpr (requires { moves.scene_size(); })
-      detail::require(moves.scene_size() == bonds_->size(), "hmps: the set `moves` of restrict_to is for a scene of ",
-                      moves.scene_size(), " particles, but the body has ", bonds_->size(),
-                      "; make it for all particles of the body");
-    restricted_.restrict_to(*bonds_, moves, Sweeps::means);
+    const B& now = bonds();
+    detail::require_scene(moves, now.size(), "that move in `restrict_to`");
+    restricted_.restrict_to(now, moves, Sweeps::means);
   }
 
   /// WRITES the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s) to `f`. Throws
@@ -80,10 +79,10 @@ class InternalForce {
   template <class X, class V, class F, Executor E = Serial>
   void operator()(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                   const E& execute = {}) {
-    require_forces(x, v, f);
-    evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
-      detail::deliver(*bonds_, block, f, force);
-    });
+    const B& now = bonds();
+    require_forces(now, x, v, f);
+    evaluate(now, x, v, execute,
+             [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA { detail::deliver(now, block, f, force); });
   }
 
   /// The same for terms that do not read velocities.
@@ -96,9 +95,10 @@ class InternalForce {
   /// Throws as the call operator does.
   template <class X, class V, class F, Executor E = Serial>
   void add(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const E& execute = {}) {
-    require_forces(x, v, f);
-    evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
-      detail::deliver(*bonds_, block, f, force,
+    const B& now = bonds();
+    require_forces(now, x, v, f);
+    evaluate(now, x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
+      detail::deliver(now, block, f, force,
                       [](F& entry, K number, std::size_t) HMPS_INLINE_LAMBDA { entry += static_cast<F>(number); });
     });
   }
@@ -110,14 +110,14 @@ class InternalForce {
   template <class X, class V, PerParticle Rho, Executor E = Serial>
   void kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& rho, double dt, const E& execute = {}) {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
-    bonds_ = &bonds();
+    const B& now = bonds();
     require_positive(rho, v.size(), "density", "kg/m3");
-    require_sizes(x, v);
+    require_sizes(now, x, v);
     require_apart(v, "velocities", x, "positions");
     detail::require_step(dt);
     // Other blocks read the staged copy of the velocities, so the originals may change meanwhile.
-    evaluate(x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
-      detail::deliver(*bonds_, block, v, force, [&](V& velocity, K density, std::size_t i) HMPS_INLINE_LAMBDA {
+    evaluate(now, x, v, execute, [&](std::size_t block, const auto& force) HMPS_INLINE_LAMBDA {
+      detail::deliver(now, block, v, force, [&](V& velocity, K density, std::size_t i) HMPS_INLINE_LAMBDA {
         detail::kick(velocity, density, at_particle(rho, i), dt);
       });
     });
@@ -138,7 +138,7 @@ class InternalForce {
                                                      const E& execute = {}) const {
     const B& now = bonds();
     require_size(x, now.size(), "positions");
-    require_positive(volume, now.size(), "volume", "m3");
+    require_positive(volume, now.size(), "volume", detail::unit_of_volume<D>());
     if (now.size() > 0) require_volume(now, detail::mean_of(volume, now.size()));
     detail::require_volumes_of(now, volume);
     return detail::energies(now, sweeps_.terms(), scales(), x, volume, execute);
@@ -153,9 +153,7 @@ class InternalForce {
   /// `StateError`, naming the particle, if a stress is not finite.
   template <class X, class R, Executor E = Serial>
   void cauchy_stresses(const VectorView<X, D>& x, const MatrixView<R, D>& stress, const E& execute = {}) const {
-    write_stresses(x, stress, "Cauchy stress", execute, [](const Matrix<double, D>& P, const Matrix<double, D>& F) {
-      return Matrix<double, D>(P * F.transpose() / determinant(F));
-    });
+    write_stresses(x, stress, "Cauchy stress", execute, detail::cauchy_of<double, D>);
   }
 
   /// WRITES the first Piola-Kirchhoff stress of every particle, dW/dF in Pa, in the same way. The sum over particles of
@@ -176,10 +174,8 @@ class InternalForce {
   /// Throws `InputError` for a volume that cannot be that of a particle with these bonds, such as a length in its
   /// place.
   static void require_volume(const B& bonds, double volume) {
-    constexpr double most = 100;
-    const double length = std::sqrt(bonds.standard_lambda()), share = volume / std::pow(length, D);
-    detail::require(share < most && share > 1 / most, "hmps: the volume of a particle is ", volume, " m", D,
-                    ", but bonds are ", length, " m long; give l0^", D, " of the spacing l0");
+    detail::require_cell_volume<D>(volume, std::sqrt(bonds.standard_lambda()), detail::most_of_bonds,
+                                   "the volume of a particle", "a bond");
   }
   /// The scales of the mean dilatation; null if no term has one.
   [[nodiscard]] const typename B::template Slots<1>* scales() const {
@@ -203,25 +199,24 @@ class InternalForce {
     detail::require_finite_result<D>(stress, body.F, name);
   }
   template <class X, class V>
-  void require_sizes(const VectorView<X, D>& x, const VectorView<V, D>& v) const {
-    require_size(x, bonds_->size(), "positions");
-    require_size(v, bonds_->size(), "velocities");
+  static void require_sizes(const B& now, const VectorView<X, D>& x, const VectorView<V, D>& v) {
+    require_size(x, now.size(), "positions");
+    require_size(v, now.size(), "velocities");
     if constexpr (Sweeps::damps) require_apart(x, "positions", v, "velocities");
   }
   template <class X, class V, class F>
-  void require_forces(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f) {
-    bonds_ = &bonds();
-    require_size(f, bonds_->size(), "forces");
-    require_sizes(x, v);
+  static void require_forces(const B& now, const VectorView<X, D>& x, const VectorView<V, D>& v,
+                             const VectorView<F, D>& f) {
+    require_size(f, now.size(), "forces");
+    require_sizes(now, x, v);
     require_apart(f, "forces", x, "positions");
     require_apart(f, "forces", v, "velocities");
   }
 
-  /// Runs all sweeps at positions `x` and velocities `v`. The last one calls `take(block, force)`; `force(d)` returns
-  /// the lanes of component d of the force density.
+  /// Runs all sweeps over the bonds `now` at positions `x` and velocities `v`. The last one calls `take(block, force)`;
+  /// `force(d)` returns the lanes of component d of the force density.
   template <class X, class V, class E, class Take>
-  void evaluate(const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
-    const B& now = *bonds_;
+  void evaluate(const B& now, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
     const Vector<double, D> common = detail::common_displacement(now, x);
     execute(now.block_count(), [&](std::size_t block) { sweeps_.stage_state(now, block, x, v, common); });
     if constexpr (dilates) {
@@ -237,7 +232,6 @@ class InternalForce {
   }
 
   detail::FollowedBonds<B> followed_;
-  const B* bonds_;  // their address at the last call
   Sweeps sweeps_;
   detail::RestrictedBlocks<B> restricted_;
 };

@@ -8,6 +8,7 @@
 
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/cell_volume.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
@@ -44,8 +45,7 @@ class Pressure {
         bond_(std::sqrt(bonds.standard_lambda())),
         particles_(loaded.indices()),
         area_(particles_.size()) {
-    detail::require(loaded.scene_size() == size_, "hmps: the set of particles under pressure is for a scene of ",
-                    loaded.scene_size(), " particles but the bonds are for ", size_, "; make both for the same scene");
+    detail::require_scene(loaded, size_, "under pressure");
     double largest = 0, least = 0;  // |b| at a face is of the order of one over the length of a bond
     for (std::size_t k = 0; k < particles_.size(); ++k) {
       area_[k] = area_per_volume(bonds, particles_[k]);
@@ -83,11 +83,8 @@ class Pressure {
   /// each has the volume `volume` (m^D): for a plane face its area along its normal, for a closed surface zero. Throws
   /// `InputError` for a volume that cannot be that of a particle with these bonds.
   [[nodiscard]] Vector<double, D> area(double volume) const {
-    constexpr double most = 100;
-    const double share = volume / std::pow(bond_, D);
-    detail::require(detail::is_finite(volume) && share < most && share > 1 / most,
-                    "hmps: the area under pressure is asked for particles of ", volume, " m", D, ", but bonds are ",
-                    bond_, " m long; give l0^", D, " of the spacing l0");
+    detail::require_cell_volume<D>(volume, bond_, detail::most_of_bonds, "the volume of a particle under pressure",
+                                   "a bond");
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const auto& own : area_) sum += own * volume;
     return sum;

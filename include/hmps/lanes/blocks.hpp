@@ -32,7 +32,7 @@ class Blocks : public detail::Anchored {
   using Scalar = K;
   static constexpr int dimension = D;
   static constexpr std::size_t width = static_cast<std::size_t>(Lanes<K>::width);
-  static constexpr Index none = std::numeric_limits<Index>::max();
+  static constexpr Index none = detail::no_index;
 
   /// Number of particles.
   [[nodiscard]] std::size_t size() const { return slot_of_.size(); }
@@ -111,7 +111,8 @@ class Blocks : public detail::Anchored {
   }
   /// Whether the particles of `block` are consecutive in the user's arrays.
   [[nodiscard]] HMPS_INLINE bool consecutive(std::size_t block) const { return consecutive_[block] != 0; }
-  /// The largest slot that the sweeps read for `block`, if it is known; otherwise that of the block itself.
+  /// Where the sweeps read last for `block`, as a hint from where to prefetch; here, if nothing better is known, in the
+  /// block itself.
   [[nodiscard]] HMPS_INLINE std::size_t last_slot(std::size_t block) const { return block * width; }
   [[nodiscard]] HMPS_INLINE const double* reference_slots(int c) const {
     return &reference_(static_cast<std::size_t>(c), 0);
@@ -124,6 +125,8 @@ class Blocks : public detail::Anchored {
       : particle_of_((order.size() + width - 1) / width * width, none),
         slot_of_(order.size()),
         reference_(particle_of_.size()) {
+    detail::require(order.size() < std::size_t{1} << 31, "hmps: ", order.size(),
+                    " particles are more than the 2^31 that bonds can number; divide the body into parts");
     std::copy(order.begin(), order.end(), particle_of_.begin());
     for (std::size_t s = 0; s < order.size(); ++s) slot_of_[order[s]] = static_cast<Index>(s);
     for (int c = 0; c < D; ++c)

@@ -50,7 +50,7 @@ using Quad = typename QuadOf<S>::Type;
 
 /// Sets `quad` to the components of `v`, followed by zeros.
 template <class S, class Derived>
-HMPS_INLINE void spread(const Eigen::MatrixBase<Derived>& v, Quad<S>& quad) {
+HMPS_INLINE void set_quad(const Eigen::MatrixBase<Derived>& v, Quad<S>& quad) {
   quad = Quad<S>{};
   for (int c = 0; c < v.size(); ++c) quad[static_cast<std::size_t>(c)] = v[c];
 }

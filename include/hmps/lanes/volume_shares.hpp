@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/cell_volume.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/per_particle.hpp"
@@ -20,16 +21,13 @@ namespace hmps::inline HMPS_ABI::detail {
 template <int D, class V>
 [[nodiscard]] std::vector<double> volume_shares(const ScalarView<V>& volumes, std::size_t size, double l0) {
   require_size(volumes, size, "volumes");
-  require_positive(volumes, size, "volume", D == 3 ? "m3" : "m2");
+  require_positive(volumes, size, "volume", unit_of_volume<D>());
   const double cell = std::pow(l0, D);
   std::vector<double> shares(size);
   double sum = 0;
   for (std::size_t i = 0; i < size; ++i) sum += shares[i] = static_cast<double>(volumes[i]) / cell;
-  constexpr double most = 8;
   const double mean = size > 0 ? sum / static_cast<double>(size) : 1;
-  require(mean < most && mean > 1 / most, "hmps: the volumes are ", mean * cell, " m", D,
-          " on average, but the cube of the spacing of ", l0, " m has ", cell, " m", D,
-          "; give both in metres, and the spacing that belongs to these particles");
+  require_cell_volume<D>(mean * cell, l0, most_of_spacing, "the mean volume of the particles", "the spacing");
   constexpr double largest = 64;
   for (std::size_t i = 0; i < size; ++i)
     require(shares[i] < largest, "hmps: the volume of particle ", i, " is ", volumes[i], " m", D, ", ", shares[i],

@@ -89,6 +89,14 @@ template <class Law, class T, int D>
   }
 }
 
+namespace detail {
+/// The Cauchy stress of the first Piola-Kirchhoff stress `P` at `F`.
+template <class T, int D>
+[[nodiscard]] Matrix<T, D> cauchy_of(const Matrix<T, D>& P, const Matrix<T, D>& F) {
+  return P * F.transpose() / determinant(F);
+}
+}  // namespace detail
+
 /// The strain energy per reference volume in J/m3 at the deformation gradient `F`.
 template <class Law, class T, int D>
 [[nodiscard]] T energy_density(const Law& law, const Matrix<T, D>& F) {
@@ -136,6 +144,26 @@ void require_order(P bulk, P shear, const char* law) {
   require(P(6) * bulk >= shear, "hmps: the bulk modulus of ", law, " is ", bulk, " Pa with a shear modulus of ", shear,
           " Pa, so that Poisson's ratio is ", (P(3) * bulk - P(2) * shear) / (P(6) * bulk + P(2) * shear),
           "; are the two interchanged? from_moduli takes the bulk modulus first");
+}
+
+/// The shear modulus in Pa of a Young's modulus in Pa and a Poisson's ratio.
+template <class P>
+[[nodiscard]] P shear_modulus_of(P young, P poisson) {
+  return young / (P(1) + poisson) / P(2);
+}
+/// Lame's first constant in Pa of the same.
+template <class P>
+[[nodiscard]] P lame_lambda(P young, P poisson) {
+  return young / (P(1) + poisson) * poisson / (P(1) - P(2) * poisson);
+}
+/// Throws `InputError` for Lame's constants `law.lambda` and `law.mu` in Pa of which the bulk or shear modulus is not
+/// positive and finite, or Poisson's ratio below -1/2.
+template <class Law>
+void require_lame(const Law& law, const char* name) {
+  require_modulus(law.mu, name, "shear modulus mu", "from_young_poisson needs E > 0 and Poisson's ratio > -1");
+  require_modulus(law.bulk_modulus(), name, "bulk modulus lambda + 2 mu / 3",
+                  "from_young_poisson needs Poisson's ratio < 0.5");
+  require_order(law.bulk_modulus(), law.mu, name);
 }
 
 /// Throws `InputError` for a law that rejects its own parameters, and, if `material` is a callable that gives the law

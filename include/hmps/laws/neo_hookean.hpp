@@ -23,11 +23,9 @@ struct NeoHookean {
   P kappa;  ///< bulk modulus in Pa at zero strain
 
   /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson` at zero strain.
-  [[nodiscard]] static NeoHookean from_young(P young, P poisson) {
-    return {young / (P(2) * (P(1) + poisson)), young / (P(3) * (P(1) - P(2) * poisson))};
+  [[nodiscard]] static NeoHookean from_young_poisson(P young, P poisson) {
+    return {detail::shear_modulus_of(young, poisson), young / (P(3) * (P(1) - P(2) * poisson))};
   }
-  /// The same, under the name that means the same in every law.
-  [[nodiscard]] static NeoHookean from_young_poisson(P young, P poisson) { return from_young(young, poisson); }
   /// The law with the bulk modulus `bulk` and the shear modulus `shear` in Pa at zero strain.
   [[nodiscard]] static NeoHookean from_moduli(P bulk, P shear) { return {shear, bulk}; }
 
@@ -36,9 +34,11 @@ struct NeoHookean {
 
   /// Throws `InputError` if a modulus is not positive and finite, or if Poisson's ratio is below -1/2.
   void validate() const requires std::is_arithmetic_v<P> {
-    detail::require_modulus(mu, "NeoHookean", "shear modulus mu", "from_young needs E > 0 and Poisson's ratio > -1");
-    detail::require_modulus(kappa, "NeoHookean", "bulk modulus kappa",
-                            "from_young needs Poisson's ratio < 0.5; a ratio of 0.5 has no finite bulk modulus");
+    detail::require_modulus(mu, "NeoHookean", "shear modulus mu",
+                            "from_young_poisson needs E > 0 and Poisson's ratio > -1");
+    detail::require_modulus(
+        kappa, "NeoHookean", "bulk modulus kappa",
+        "from_young_poisson needs Poisson's ratio < 0.5; a ratio of 0.5 has no finite bulk modulus");
     detail::require_order(bulk_modulus(), shear_modulus(), "NeoHookean");
   }
 

@@ -22,13 +22,8 @@ struct SaintVenantKirchhoff {
   P mu;      ///< shear modulus in Pa
 
   /// The law with Young's modulus `young` in Pa and Poisson's ratio `poisson` at zero strain.
-  [[nodiscard]] static SaintVenantKirchhoff from_young(P young, P poisson) {
-    const P two_mu = young / (P(1) + poisson);
-    return {two_mu * poisson / (P(1) - P(2) * poisson), two_mu / P(2)};
-  }
-  /// The same, under the name that means the same in every law.
   [[nodiscard]] static SaintVenantKirchhoff from_young_poisson(P young, P poisson) {
-    return from_young(young, poisson);
+    return {detail::lame_lambda(young, poisson), detail::shear_modulus_of(young, poisson)};
   }
   /// The law with the bulk modulus `bulk` and the shear modulus `shear` in Pa at zero strain.
   [[nodiscard]] static SaintVenantKirchhoff from_moduli(P bulk, P shear) { return {bulk - shear * P(2) / P(3), shear}; }
@@ -37,13 +32,7 @@ struct SaintVenantKirchhoff {
   [[nodiscard]] P shear_modulus() const { return mu; }
 
   /// Throws `InputError` if the bulk or shear modulus is not positive and finite, or if Poisson's ratio is below -1/2.
-  void validate() const requires std::is_arithmetic_v<P> {
-    detail::require_modulus(mu, "SaintVenantKirchhoff", "shear modulus mu",
-                            "from_young needs E > 0 and Poisson's ratio > -1");
-    detail::require_modulus(bulk_modulus(), "SaintVenantKirchhoff", "bulk modulus lambda + 2 mu / 3",
-                            "from_young needs Poisson's ratio < 0.5");
-    detail::require_order(bulk_modulus(), shear_modulus(), "SaintVenantKirchhoff");
-  }
+  void validate() const requires std::is_arithmetic_v<P> { detail::require_lame(*this, "SaintVenantKirchhoff"); }
 
   /// S = 2 dW/dC in Pa, \paper{14}, at C = F^T F. Does not use J.
   template <class T, int D>

@@ -15,6 +15,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
+#include "hmps/core/step.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/motion/rigid_motion.hpp"
@@ -55,10 +56,7 @@ class ControlRegion {
 
   ControlRegion(const ParticleSet& particles, const VectorView<const S, D>& reference, M motion)
       : ControlRegion(particles.indices(), reference, std::move(motion)) {
-    detail::require(particles.scene_size() == reference.size(),
-                    "hmps: the set of particles of a control region is for ", particles.scene_size(),
-                    " particles, but there are ", reference.size(),
-                    " reference positions; make both for the same scene");
+    detail::require_scene(particles, reference.size(), "of a control region");
   }
 
   [[nodiscard]] const std::vector<Index>& particles() const { return particles_; }
@@ -84,8 +82,7 @@ class ControlRegion {
   template <class X, class V, Executor E = Serial>
   void prescribe(const VectorView<X, D>& x, const VectorView<V, D>& v, double t, double dt, double speed_limit,
                  const E& execute = {}) const {
-    detail::require(detail::is_finite(dt) && dt > 0, "hmps: a control region is moved by a step of ", dt,
-                    " s; give a positive step");
+    detail::require_step(dt);
     detail::require(detail::is_finite(t), "hmps: a control region is moved to the time ", t, " s; give finite seconds");
     detail::require(!detail::is_nan(speed_limit) && speed_limit >= 0, "hmps: the speed limit of a control region is ",
                     speed_limit, " m/s; give a positive number, or leave it out");

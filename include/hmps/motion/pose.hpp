@@ -23,14 +23,6 @@ template <class S>
   return r;
 }
 
-/// The matrix with `skew(a) b = a x b`.
-template <class S>
-[[nodiscard]] Matrix<S, 3> skew(const Vector<S, 3>& a) {
-  Matrix<S, 3> m;
-  m << S(0), -a[2], a[1], a[2], S(0), -a[0], -a[1], a[0], S(0);
-  return m;
-}
-
 namespace detail {
 /// sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, as series where the quotients would suffer cancellation.
 template <class S>

@@ -46,7 +46,7 @@ struct Turn {
   Vector<double, 3> axis;
   Track angle;
   /// A template, so that it is compiled only in programs that call it.
-  template <class T = double>
+  template <std::same_as<double> T = double>
   [[nodiscard]] Pose<T, 3> operator()(std::type_identity_t<T> t) const {
     const Vector<T, 3> about = axis;
     const T length = about.norm();

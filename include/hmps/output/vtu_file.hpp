@@ -257,8 +257,11 @@ class VtuSeries {
     const std::string name =
         path_.stem().string() + '_' + std::string(5 - std::min<std::size_t>(number.size(), 5), '0') + number + ".vtu";
     write_vtu(path_.parent_path() / name, x, fields, settings);
-    frames_.emplace_back(time, name);
-    detail::replace_file(path_, pvd_text(frames_));
+    // If the collection cannot be written, it stays as it is, and the frame can be added again.
+    auto frames = frames_;
+    frames.emplace_back(time, name);
+    detail::replace_file(path_, pvd_text(frames));
+    frames_ = std::move(frames);
   }
 
   /// Time in s and file of every frame.

@@ -16,6 +16,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
+#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -64,8 +65,7 @@ class CarriedSurface {
       const VectorView<T, D>& reference, const VectorView<P, D>& points, double spacing,
       const Belongs& belongs = [](std::size_t) { return true; }, const E& execute = {})
       : particles_(reference.size()) {
-    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of a carried surface is ", spacing,
-                    " m; give the particles' positive distance in the reference configuration");
+    detail::require_spacing(spacing, "a carried surface");
     detail::require(reference.size() > 0, "hmps: a carried surface was given no particles");
     require_view(points, "points");
     for (std::size_t p = 0; p < points.size(); ++p)

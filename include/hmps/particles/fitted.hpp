@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -25,18 +23,6 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// What `fit_particles` passes to its progress hook after each iteration.
-struct FitProgress {
-  int iteration;   ///< counted from 1
-  int iterations;  ///< in total
-  double move;     ///< the longest move of a particle in this iteration in m
-};
-
-/// The progress hook that does nothing.
-struct NoFitProgress {
-  constexpr void operator()(const FitProgress&) const {}
-};
-
 /// The result of `fit_particles`.
 template <class S, int D>
 struct FittedParticles {
@@ -46,7 +32,7 @@ struct FittedParticles {
   std::vector<S> layer_spacings;        ///< distance of these layers in m
   int iterations = 0;                   ///< number of iterations made
   /// The largest deviation in m of a particle of the outermost layer from its depth of half a layer.
-  double largest_distance = 0;
+  double largest_deviation = 0;
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 
@@ -59,7 +45,7 @@ struct FittedParticles {
     add(layers, part.layers);
     add(layer_spacings, part.layer_spacings);
     iterations = std::max(iterations, part.iterations);
-    largest_distance = std::max(largest_distance, part.largest_distance);
+    largest_deviation = std::max(largest_deviation, part.largest_deviation);
   }
 };
 
@@ -86,17 +72,15 @@ struct FittedParticles {
 ///                  parts must overlap, because there is a surface between parts that only touch
 /// @param box       in m, tight or not; its faces cut the shape
 /// @param spacing   l0 in m
-/// @param progress  called as progress(FitProgress) after each iteration
 /// Throws `InputError` for a spacing that is not positive, a box that is empty, too large or not finite, bad settings,
 /// a shape that is NaN (with the position) or no distance at a quarter of its surface, a shape without volume in the
 /// box, a body in which no particle has enough support, and, with the position, a part of the body that is thinner than
 /// `least_layers` layers of `thinnest_spacing` and reaches further than `longest_edge` beyond the particles, or one
 /// that is connected to no particle. Thin edges up to that length are left to the nearest particles.
-template <class F, class S, int D, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
+template <class F, class S, int D, Executor E = Serial>
 requires Shape<F, S, D>
 [[nodiscard]] FittedParticles<S, D> fit_particles(const F& shape, const Box<S, D>& box, std::type_identity_t<S> spacing,
-                                                  const FitSettings& settings = {}, const E& execute = {},
-                                                  Progress&& progress = {}) {
+                                                  const FitSettings& settings = {}, const E& execute = {}) {
   static_assert(D == 2 || D == 3, "hmps: fitted particles have 2 or 3 dimensions");
   detail::validate(settings);
   const double l0 = static_cast<double>(spacing);
@@ -110,7 +94,7 @@ requires Shape<F, S, D>
   for (int k = 0; k < settings.iterations; ++k) {
     const double left = 1 - static_cast<double>(k) / settings.iterations;
     const double move = cloud.iterate(k, left, loops);
-    progress(FitProgress{k + 1, settings.iterations, move});
+    if (settings.progress) settings.progress(FitProgress{k + 1, settings.iterations, move});
   }
   cloud.settle(loops);
   if (settings.least_support > 0) cloud.remove_weak(settings.least_support);
@@ -125,7 +109,7 @@ requires Shape<F, S, D>
     result.layers.push_back(p.layers.thick ? 0 : p.layers.count);
     result.layer_spacings.push_back(static_cast<S>(p.layers.spacing));
     if (p.layers.layer(p.depth) == 0)
-      result.largest_distance = std::max(result.largest_distance, std::abs(p.depth - p.layers.level(0)));
+      result.largest_deviation = std::max(result.largest_deviation, std::abs(p.depth - p.layers.level(0)));
   }
   return result;
 }
@@ -136,14 +120,13 @@ requires Shape<F, S, D>
 ///
 /// Also throws `InputError` as `require_closed` does, and for a spacing that seems to be in a different unit from the
 /// surface.
-template <class S, Executor E = Serial, std::invocable<const FitProgress&> Progress = NoFitProgress>
+template <class S, Executor E = Serial>
 [[nodiscard]] FittedParticles<S, 3> fit_particles(const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,
-                                                  const FitSettings& settings = {}, const E& execute = {},
-                                                  Progress&& progress = {}) {
+                                                  const FitSettings& settings = {}, const E& execute = {}) {
   require_closed(mesh);
   const MeshDistance<S> shape(mesh);
   detail::require_plausible(mesh, shape.box(), static_cast<double>(spacing));
-  return fit_particles(shape, shape.box(), spacing, settings, execute, std::forward<Progress>(progress));
+  return fit_particles(shape, shape.box(), spacing, settings, execute);
 }
 
 }  // namespace hmps::inline HMPS_ABI

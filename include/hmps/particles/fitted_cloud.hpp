@@ -15,6 +15,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/core/wall_layers.hpp"
 #include "hmps/particles/fitted_field.hpp"
 #include "hmps/particles/support.hpp"
 #include "hmps/search/grid.hpp"
@@ -48,7 +49,7 @@ class FittedCloud {
   /// Puts a particle wherever a volume of spacing^D of the same layer has been passed along the samples.
   void seed(const AnyExecutor& execute) {
     const auto& samples = field_.samples();
-    constexpr int most = Field::most_layers;
+    constexpr int most = most_layers;
     std::vector<Parts> parts(samples.size());
     execute(samples.size(), [&](std::size_t k) { parts[k] = parts_of(samples[k]); });
     const double share = std::pow(field_.spacing(), D);
@@ -155,7 +156,7 @@ class FittedCloud {
     look(particle);
     const double slope = particle.slope.squaredNorm();
     // Below the counted layers lies the bulk, where particles stay in place.
-    if (layer < Field::most_layers && layer != particle.layers.layer(particle.depth) && slope > least_slope)
+    if (layer < most_layers && layer != particle.layers.layer(particle.depth) && slope > least_slope)
       particle.place += (particle.depth - particle.layers.level(layer)) / slope * particle.slope;
     return particle;
   }

@@ -17,6 +17,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/core/wall_layers.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/search/grid.hpp"
 #include "hmps/shapes/implicit.hpp"
@@ -71,7 +72,6 @@ class FittedField {
  public:
   using Point = Vector<double, D>;
   static constexpr int samples_per_spacing = 4;
-  static constexpr int most_layers = 8;     // across thin walls; thicker parts are bulk
   static constexpr double steepest = 1.25;  // the largest gradient of the distance with which no cut cell is missed
 
   /// The shape must outlive the field.

@@ -90,15 +90,14 @@ template <int D>
                                                  const FitSettings& settings, const AnyExecutor& execute) {
   const auto& samples = field.samples();
   const auto& particles = cloud.particles();
-  constexpr Index nobody = std::numeric_limits<Index>::max();
   const double l0 = field.spacing(), farthest = settings.longest_edge * l0;
   Grid<double, D> grid;
   grid.build(particles.size(), l0, [&](std::size_t i) { return particles[i].place; });
   std::vector<Index> owner(samples.size());
   execute(samples.size(), [&](std::size_t k) {
     double least = std::numeric_limits<double>::infinity();
-    owner[k] = nobody;
-    for (double radius = std::min(l0, farthest); owner[k] == nobody; radius = std::min(2 * radius, farthest)) {
+    owner[k] = no_index;
+    for (double radius = std::min(l0, farthest); owner[k] == no_index; radius = std::min(2 * radius, farthest)) {
       grid.visit(samples[k].place, radius, [&](Index i, double squared) {
         if (squared < least || (squared == least && i < owner[k])) {
           least = squared;
@@ -110,7 +109,7 @@ template <int D>
   });
   std::vector<double> volumes(particles.size(), 0.0);
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (owner[k] == nobody) {
+    if (owner[k] == no_index) {
       const Layering here = field.layering(samples[k].place);
       require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (",
               samples[k].place.transpose(), "), in a part of the body that is not a wall; give a spacing below ", l0,

@@ -49,14 +49,15 @@ template <class S, int D>
 
 /// The distance in m from the surface within which a site counts as lying on it.
 template <class S, int D>
-[[nodiscard]] double hair(const Box<S, D>& box, double spacing, const Vector<S, D>& origin) {
+[[nodiscard]] double surface_tolerance(const Box<S, D>& box, double spacing, const Vector<S, D>& origin) {
   return std::max(1e-9 * spacing, coordinate_rounding<S, D>(box, origin));
 }
 
-/// The shift in m by which sites on the surface are moved to decide on which side they count; `reach` is the `hair` in
-/// m. It exceeds the rounding and differs in each direction, so that sites on faces such as x = y fall on one side.
+/// The shift in m by which sites on the surface are moved to decide on which side they count; `reach` is the
+/// `surface_tolerance` in m. It exceeds the rounding and differs in each direction, so that sites on faces such as x =
+/// y fall on one side.
 template <class S, int D>
-[[nodiscard]] Vector<S, D> aside(S reach) {
+[[nodiscard]] Vector<S, D> tie_shift(S reach) {
   constexpr S share[3] = {S(8), S(6.5), S(5.25)};
   Vector<S, D> shift;
   for (int c = 0; c < D; ++c) shift[c] = share[c] * reach;
@@ -70,12 +71,12 @@ class InsideShape {
   static_assert(RequireDistance<F, Vector<S, D>>::value);
   InsideShape(const F& shape, const Box<S, D>& box, S spacing, const Vector<S, D>& origin)
       : shape_(shape),
-        on_surface_(static_cast<S>(hair<S, D>(box, static_cast<double>(spacing), origin))),
-        aside_(aside<S, D>(on_surface_)) {}
+        on_surface_(static_cast<S>(surface_tolerance<S, D>(box, static_cast<double>(spacing), origin))),
+        tie_shift_(tie_shift<S, D>(on_surface_)) {}
   [[nodiscard]] bool operator()(const Vector<S, D>& x) const {
     const S distance = value(x);
     if (std::abs(distance) > on_surface_) return distance < S(0);
-    return value(Vector<S, D>(x + aside_)) < S(0);
+    return value(Vector<S, D>(x + tie_shift_)) < S(0);
   }
 
  private:
@@ -88,8 +89,8 @@ class InsideShape {
     return distance;
   }
   const F& shape_;
-  S on_surface_;        ///< m
-  Vector<S, D> aside_;  ///< m
+  S on_surface_;            ///< m
+  Vector<S, D> tie_shift_;  ///< m
 };
 
 template <class S, int D>

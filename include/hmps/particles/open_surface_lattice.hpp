@@ -70,15 +70,14 @@ void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges
 ///     const auto mesh = read_surface<double>("organ.stl", {.scale = 1e-3, .closed = false});
 ///     const auto [points, open_edges, crowded, holes, largest_hole, doubtful] = fill_open_lattice(mesh, 1.2e-3);
 ///
-/// @param mesh      welded; triangles may be missing, but neighbours must have consistent orientation
-/// @param accuracy  of winding numbers, see `TriangleTree`; 2 gives an error of about 0.01
+/// @param mesh  welded; triangles may be missing, but neighbours must have consistent orientation
 /// Throws `InputError` as `fill_lattice` does, for repeated triangles, for neighbours of opposite orientation, and for
 /// a surface that does not clearly enclose any site (winding number of 0.75 or more).
 template <class S, Executor E = Serial>
 [[nodiscard]] OpenLattice<S> fill_open_lattice(const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,
                                                const std::type_identity_t<Vector<S, 3>>& origin = Vector<S, 3>::Zero(),
-                                               const E& execute = {}, double accuracy = 2) {
-  const TriangleTree tree(mesh, accuracy);
+                                               const E& execute = {}) {
+  const TriangleTree tree(mesh);
   const auto edges = detail::edge_uses(mesh.triangles);
   const detail::EdgeFaults<S> faults(mesh, edges);
   detail::require_single(mesh, faults);
@@ -92,7 +91,8 @@ template <class S, Executor E = Serial>
   detail::require_plausible(mesh, box, static_cast<double>(spacing));
   const auto sites = detail::lattice_sites<S, 3>(box, spacing, origin);
   // Sites on the lower sides of the surface are inside, as in `fill_lattice`.
-  const auto aside = detail::aside<double, 3>(detail::hair<S, 3>(box, static_cast<double>(spacing), origin));
+  const auto shift =
+      detail::tie_shift<double, 3>(detail::surface_tolerance<S, 3>(box, static_cast<double>(spacing), origin));
   std::vector<std::vector<Vector<S, 3>>> slabs(static_cast<std::size_t>(sites.count[0]));
   std::vector<std::size_t> doubtful(slabs.size(), 0), sure(slabs.size(), 0);
   execute(slabs.size(), [&](std::size_t slab) {
@@ -103,7 +103,7 @@ template <class S, Executor E = Serial>
       x[1] = sites.coordinate(1, j);
       for (std::int64_t k = 0; k < sites.count[2]; ++k) {
         x[2] = sites.coordinate(2, k);
-        const double winding = std::abs(tree.winding_number(x + aside));
+        const double winding = std::abs(tree.winding_number(x + shift));
         if (winding > 0.25 && winding < 0.75) ++in_doubt;
         if (winding >= 0.75) ++surely_inside;
         if (winding > 0.5) slabs[slab].push_back(x.template cast<S>());

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/cell_volume.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
+#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/particles/carried_surface.hpp"
@@ -106,15 +108,9 @@ class PatchPressure {
     detail::require(detail::is_finite(pressure), "hmps: the pressure on a patch is ", pressure,
                     " Pa; give a finite number");
     require_positive(volume, x.size(), "volume", "m3");
-    if (x.size() > 0) {
-      constexpr double most = 8;
-      const double mean = detail::mean_of(volume, x.size());
-      const double share = mean / (spacing_ * spacing_ * spacing_);
-      detail::require(share < most && share > 1 / most, "hmps: the `volume` of PatchPressure::add is ", mean,
-                      " m3 per particle, but the cube of the spacing of ", spacing_,
-                      " m that PatchPressure was made with has ", spacing_ * spacing_ * spacing_,
-                      " m3; give the volume of one particle after the pressure, and l0 to the constructor");
-    }
+    if (x.size() > 0)
+      detail::require_cell_volume<3>(detail::mean_of(volume, x.size()), spacing_, detail::most_of_spacing,
+                                     "the mean `volume` given to PatchPressure::add", "its spacing");
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());
     for (const auto& t : triangles_) {
@@ -150,8 +146,7 @@ class PatchPressure {
   template <class T, class S>
   [[nodiscard]] static SurfaceMesh<S> refined(const VectorView<T, 3>& reference, const SurfaceMesh<S>& patch,
                                               double spacing) {
-    detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of PatchPressure is ", spacing,
-                    " m; give the particles' positive distance in the reference configuration");
+    detail::require_spacing(spacing, "PatchPressure");
     require_finite(reference, "the reference position");
     detail::require_spacing_of(reference, spacing, "PatchPressure");
     return refine(patch, spacing);

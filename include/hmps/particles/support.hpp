@@ -98,8 +98,8 @@ class Supports {
   }
 
  private:
-  const VectorView<T, D>& points_;
-  const Bonded& bonded_;
+  VectorView<T, D> points_;
+  Bonded bonded_;
   double radius_;
   double spacing_;
   NeighbourList list_;

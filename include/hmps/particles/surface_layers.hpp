@@ -15,6 +15,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -86,8 +87,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
                                            const E& execute = {}) {
   static_assert(D == 2 || D == 3, "hmps: layers are found in 2 or 3 dimensions");
   using S = typename VectorView<T, D>::Scalar;
-  detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the spacing of surface layers is ", spacing,
-                  " m; give the particles' positive distance in the reference configuration");
+  detail::require_spacing(spacing, "surface layers");
   // Every direction lies within 3.5 degrees (2D: 1) of one of these.
   const auto directions = detail::spread_directions<D>(D == 2 ? 180 : 2000);
   const double limit = std::cos(56 * std::numbers::pi / 180);

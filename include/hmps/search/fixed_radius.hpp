@@ -227,9 +227,6 @@ template <class T, int D, Executor E = Serial>
 template <class T, int D, Executor E = Serial>
 [[nodiscard]] NeighbourList find_neighbours(const VectorView<T, D>& points, typename VectorView<T, D>::Scalar radius,
                                             const E& execute = {}) {
-  using Scalar = typename VectorView<T, D>::Scalar;
-  detail::require(radius > 0 && radius < std::numeric_limits<Scalar>::infinity(), "hmps: the search radius is ", radius,
-                  "; it must be a positive number of metres");
   return find_neighbours(FixedRadiusSearch<T, D>(points), radius, execute);
 }
 

@@ -44,7 +44,7 @@ class IsosurfaceMaker {
     }
     const std::size_t plane = nodes_[0] * nodes_[1];
     below_.resize(plane), above_.resize(plane);
-    for (Edges* edges : {&lower_, &upper_}) edges->assign(edge_kinds * plane, nobody);
+    for (Edges* edges : {&lower_, &upper_}) edges->assign(edge_kinds * plane, no_index);
   }
 
   template <class E>
@@ -57,7 +57,7 @@ class IsosurfaceMaker {
         for (std::size_t i = 0; i + 1 < nodes_[0]; ++i) cut_cube({i, j, k});
       place_vertices(execute);
       std::swap(lower_, upper_);
-      upper_.assign(upper_.size(), nobody);
+      upper_.assign(upper_.size(), no_index);
     }
     require(!mesh_.triangles.empty(), "hmps: the shape has no surface in the box from (", box_.lower.transpose(),
             ") to (", box_.upper.transpose(), ") that cells of ", cell_,
@@ -69,7 +69,6 @@ class IsosurfaceMaker {
  private:
   using Node = std::array<std::size_t, 3>;
   using Edges = std::vector<Index>;
-  static constexpr Index nobody = std::numeric_limits<Index>::max();
   static constexpr std::size_t edge_kinds = 7;  // the axes, and the diagonals of faces and of the cube
   static constexpr double most_cells = 5000;    // along an axis: a plane of them takes 1.6 GB
 
@@ -141,8 +140,8 @@ class IsosurfaceMaker {
     const std::size_t from = one & other, kind = (one | other) - from;
     const Node node{cube[0] + (from & 1), cube[1] + (from >> 1 & 1), cube[2] + (from >> 2)};
     Index& known = (from >> 2 ? upper_ : lower_)[edge_kinds * in_plane(node) + kind - 1];
-    if (known == nobody) {
-      require(mesh_.vertices.size() + cut_.size() < nobody, "hmps: the isosurface has more vertices than a 32-bit ",
+    if (known == no_index) {
+      require(mesh_.vertices.size() + cut_.size() < no_index, "hmps: the isosurface has more vertices than a 32-bit ",
               "index can address; give wider cells");
       known = static_cast<Index>(mesh_.vertices.size() + cut_.size());
       const Node end{node[0] + (kind & 1), node[1] + (kind >> 1 & 1), node[2] + (kind >> 2)};

@@ -93,16 +93,15 @@ template <class S>
   const FixedRadiusSearch search(vectors(mesh.vertices));
   SurfaceMesh<S> result;
   result.source = mesh.source;
-  constexpr Index none = static_cast<Index>(-1);
-  std::vector<Index> name(mesh.vertices.size(), none);
+  std::vector<Index> name(mesh.vertices.size(), detail::no_index);
   std::vector<Index> nearby;
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-    if (name[k] != none) continue;
+    if (name[k] != detail::no_index) continue;
     name[k] = static_cast<Index>(result.vertices.size());
     result.vertices.push_back(mesh.vertices[k]);
     search(mesh.vertices[k], reach, nearby);
     for (const Index j : nearby)
-      if (name[j] == none) name[j] = name[k];
+      if (name[j] == detail::no_index) name[j] = name[k];
   }
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     std::array<Index, 3> t{};

@@ -52,8 +52,7 @@ template <class S, class Holds>
                   "triangle");
   SurfaceMesh<S> patch;
   patch.source = "a patch of " + mesh.source;
-  constexpr Index none = static_cast<Index>(-1);
-  std::vector<Index> name(mesh.vertices.size(), none);
+  std::vector<Index> name(mesh.vertices.size(), detail::no_index);
   for (const auto& t : mesh.triangles) {
     const Vector<double, 3> a = mesh.vertices[t[0]].template cast<double>();
     const Vector<double, 3> b = mesh.vertices[t[1]].template cast<double>();
@@ -65,7 +64,7 @@ template <class S, class Holds>
     if (!holds(centre, normal)) continue;
     std::array<Index, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
-      if (name[t[k]] == none) {
+      if (name[t[k]] == detail::no_index) {
         name[t[k]] = static_cast<Index>(patch.vertices.size());
         patch.vertices.push_back(mesh.vertices[t[k]]);
       }

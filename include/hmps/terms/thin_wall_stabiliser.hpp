@@ -11,7 +11,9 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/core/wall_layers.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/shear_wave_modulus.hpp"
 #include "hmps/terms/wall_column.hpp"
@@ -66,7 +68,7 @@ class FittedWalls {
   }
 
  private:
-  static constexpr Real closest = Real(0.6), step = Real(0.05);
+  static constexpr Real closest = Real(closest_layers), step = Real(0.05);
   /// The standard deviation with which E_hat is that of layers of `fit_particles`; see docs/theory.md.
   static constexpr Real disorder = Real(0.14);
   /// The error of the energy that counts as much as a change of the law by a factor of e. With more than it needs, the
@@ -133,17 +135,13 @@ class FittedWalls {
 /// @param spacing         l0 in m
 /// @param bulk_modulus, shear_modulus  of the material at zero strain in Pa
 /// Throws `InputError` for moduli or a spacing that are not positive, a negative Poisson's ratio, lists of different
-/// sizes, a single layer, and layers closer than 0.6 or further apart than 1.3 spacings.
+/// sizes, a single layer or more than eight, and layers closer than 0.6 or further apart than 1.3 spacings.
 template <class P, class S>
 [[nodiscard]] ThinWallStabiliser<P> thin_wall_stabiliser(const std::vector<int>& layers,
                                                          const std::vector<S>& layer_spacings, double spacing,
                                                          P bulk_modulus, P shear_modulus) {
   (void)split_bulk_modulus(bulk_modulus, shear_modulus);  // for its errors
-  detail::require(3 * bulk_modulus >= 2 * shear_modulus, "hmps: the bulk modulus ", bulk_modulus,
-                  " Pa and the shear modulus ", shear_modulus,
-                  " Pa give a negative Poisson's ratio; give the bulk modulus first, both in Pa");
-  detail::require(detail::is_finite(spacing) && spacing > 0, "hmps: the particle spacing is ", spacing,
-                  " m; it must be positive");
+  detail::require_spacing(spacing, "the particles");
   detail::require(layers.size() == layer_spacings.size(), "hmps: the number of layers is given for ", layers.size(),
                   " particles, but their spacing for ", layer_spacings.size(), "; give both for each particle");
   const P K = bulk_modulus, mu = shear_modulus;
@@ -156,10 +154,12 @@ template <class P, class S>
       chosen.moduli.push_back(shear_wave_modulus(mu));
       continue;
     }
-    detail::require(layers[i] >= 2 && layers[i] <= 8, "hmps: the wall at particle ", i, " has ", layers[i],
-                    " layers; it takes two to bend, and more than eight are bulk (0)");
-    detail::require(apart >= 0.6 - 1e-6 && apart <= 1.3 + 1e-6, "hmps: the layers at particle ", i, " are ", apart,
-                    " spacings apart; give a spacing with which this is 0.6 to 1.3");
+    detail::require(layers[i] >= 2 && layers[i] <= detail::most_layers, "hmps: the wall at particle ", i, " has ",
+                    layers[i], " layers; it takes two to bend, and more than ", detail::most_layers, " are bulk (0)");
+    detail::require(apart >= detail::closest_layers - 1e-6 && apart <= detail::farthest_layers + 1e-6,
+                    "hmps: the layers at particle ", i, " are ", apart,
+                    " spacings apart; give a spacing with which this is ", detail::closest_layers, " to ",
+                    detail::farthest_layers);
     chosen.moduli.push_back(static_cast<P>(walls.add(layers[i], apart)) * mu);
   }
   chosen.bulk.law = std::min(K, static_cast<P>(walls.law()) * mu);

@@ -11,6 +11,7 @@
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/core/wall_layers.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 
@@ -19,8 +20,6 @@ namespace hmps::inline HMPS_ABI::detail {
 template <class Real>
 class WallColumn {
  public:
-  static constexpr int most_layers = 8;
-
   /// `fill(add)` calls add(layer, weight, visit) for the particles of the wall, whose weights sum to one in each layer.
   /// `visit(bond)` calls bond(r, height, other) for every neighbour, with the vector to it, its height over the middle
   /// of the wall, and its layer.

@@ -23,7 +23,7 @@ FittedOrgans example() {
   fitted.particles.layers = {0, 3};
   fitted.particles.layer_spacings = {2.4e-3, 1.6e-3};
   fitted.particles.iterations = 200;
-  fitted.particles.largest_distance = 1e-5;
+  fitted.particles.largest_deviation = 1e-5;
   fitted.depth = {0.5, 1.5};
   return fitted;
 }
@@ -40,7 +40,7 @@ TEST(FittedFile, GivesBackEveryBit) {
   EXPECT_EQ(read->particles.layers, written.particles.layers);
   EXPECT_EQ(read->particles.layer_spacings, written.particles.layer_spacings);
   EXPECT_EQ(read->particles.iterations, written.particles.iterations);
-  EXPECT_EQ(read->particles.largest_distance, written.particles.largest_distance);
+  EXPECT_EQ(read->particles.largest_deviation, written.particles.largest_deviation);
   EXPECT_EQ(read->depth, written.depth);
 }
 

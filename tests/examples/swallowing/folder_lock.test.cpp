@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "../../reference/message_of.hpp"
@@ -44,6 +46,27 @@ TEST(FolderLock, EndsWithItsProcessHoweverThatEnds) {
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   EXPECT_NO_THROW((void)FolderLock(folder.path(), FolderLock::Taken::wait));
+}
+
+TEST(FolderLock, SaysThatItWaits) {
+  const TemporaryFolder folder;
+  const auto words = folder.path() / "words";
+  std::optional<FolderLock> lock(folder.path());
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    lock.reset();  // the copy of the child, which does not give up that of the parent
+    if (std::freopen(words.c_str(), "w", stderr) == nullptr) ::_exit(1);
+    { const FolderLock other(folder.path(), FolderLock::Taken::wait); }
+    ::_exit(0);
+  }
+  const auto said = [&] { return std::filesystem::exists(words) ? examples::read_file(words) : std::string(); };
+  int status = 0;
+  while (said().find("waiting") == std::string::npos && ::waitpid(child, &status, WNOHANG) == 0) ::usleep(500);
+  EXPECT_NE(said().find(std::to_string(::getpid())), std::string::npos) << said();
+  lock.reset();
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(FolderLock, NeedsAFolder) {

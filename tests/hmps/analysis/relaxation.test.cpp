@@ -79,7 +79,7 @@ struct Standing {
   }
 };
 
-const LinearElastic<> linear = LinearElastic<>::from_young(young, 0.3);
+const LinearElastic<> linear = LinearElastic<>::from_young_poisson(young, 0.3);
 
 template <class T, int N>
 struct Kind {

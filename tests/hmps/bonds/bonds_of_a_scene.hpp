@@ -137,8 +137,8 @@ void refuse_bad_input() {
 
   for (const double spacing :
        {0.0, -1e-3, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-    EXPECT_TRUE(
-        has(text(good, {.spacing = spacing}), "the particle spacing is " + hmps::detail::message(spacing) + " m"))
+    EXPECT_TRUE(has(text(good, {.spacing = spacing}),
+                    "the spacing of the particles is " + hmps::detail::message(spacing) + " m"))
         << text(good, {.spacing = spacing});
   for (const double ratio : {0.0, -1.75, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_TRUE(has(text(good, {.spacing = l0, .radius_ratio = ratio}),

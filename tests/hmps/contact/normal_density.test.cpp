@@ -92,7 +92,7 @@ TYPED_TEST(NormalDensityTest, SaysWhatItCannotTell) {
 }
 
 TEST(NormalDensity, HasTheFiguresOfTheWallOfThePaper) {
-  const hmps::NormalDensity<double, 3> Z(1.);
+  const hmps::NormalDensity<double, 3, hmps::PaperMetaball> Z(1.);
   // In closed form: layer h has (pi / 2) re^2 (1 - (h / re)^2)^2.
   for (const auto& [y, value] :
        {std::pair{-1., 9.175}, {0., 6.993}, {0.5, 4.396}, {1., 2.182}, {1.5, 0.339}, {1.75, 0.}, {3., 0.}})
@@ -100,7 +100,7 @@ TEST(NormalDensity, HasTheFiguresOfTheWallOfThePaper) {
 }
 
 TEST(NormalDensity, RefusesBadSpacing) {
-  using Z = hmps::NormalDensity<double, 3>;
+  using Z = hmps::NormalDensity<double, 3, hmps::PaperMetaball>;
   EXPECT_THROW(Z(0.), hmps::InputError);
   EXPECT_THROW(Z(-1.), hmps::InputError);
   EXPECT_THROW(static_cast<void>(Z(std::numeric_limits<double>::quiet_NaN())), hmps::InputError);

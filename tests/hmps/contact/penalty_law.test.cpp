@@ -67,7 +67,7 @@ struct Stone : bodies::Scene<double, 2> {
   }
   [[nodiscard]] Contact contact(const hmps::ContactSettings& settings, const Law& law) const {
     Contact made(settings, law);
-    const auto above = made.add_organ({.name = "stone", .slaves = {&stone, 1}, .masters = {}, .prescribed = {}});
+    const auto above = made.add_organ({.name = "stone", .slaves = {stone}, .masters = {}, .prescribed = {}});
     const auto below =
         made.add_organ({.name = "wall", .slaves = {}, .masters = wall.all, .prescribed = [](Index) { return true; }});
     made.add_pair(above, below, {.roles = hmps::Roles::only_first_is_slave});

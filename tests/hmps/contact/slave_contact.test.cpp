@@ -53,16 +53,16 @@ struct Scene {
     std::vector<Index> number;
     for (std::size_t j = 0; j < slave; ++j) {
       const Matrix B = hmps::inverse<double, 3>(F[j]), A = B.transpose() * B;
-      hmps::detail::spread<double>(x[j], masters[j].x);
-      hmps::detail::spread<double>(v[j], moving[j].v);
+      hmps::detail::set_quad<double>(x[j], masters[j].x);
+      hmps::detail::set_quad<double>(v[j], moving[j].v);
       for (int q = 0; q < 3; ++q) {
-        hmps::detail::spread<double>(A.col(q), masters[j].A[q]);
-        hmps::detail::spread<double>(B.col(q), moving[j].B[q]);
+        hmps::detail::set_quad<double>(A.col(q), masters[j].A[q]);
+        hmps::detail::set_quad<double>(B.col(q), moving[j].B[q]);
       }
       number.push_back(static_cast<Index>(j));
     }
     hmps::detail::Quad<double> place;
-    hmps::detail::spread<double>(x[slave], place);
+    hmps::detail::set_quad<double>(x[slave], place);
     Result result;
     result.c.resize(slave);
     result.contact = hmps::detail::slave_contact<double, 3, Ball>(

@@ -19,8 +19,8 @@ using hmps::Index;
 template <class S, int D>
 void add(hmps::detail::WallMotion<S, D>& wall, S w, const hmps::Vector<S, D>& r, const hmps::Vector<S, D>& moved) {
   hmps::detail::Quad<S> place, motion;
-  hmps::detail::spread<S>(r, place);
-  hmps::detail::spread<S>(moved, motion);
+  hmps::detail::set_quad<S>(r, place);
+  hmps::detail::set_quad<S>(moved, motion);
   wall.add(w, place, motion);
 }
 

@@ -24,7 +24,7 @@ TEST(Recorded, DiagnosticsRefuseGradientsThatNothingHasWritten) {
   std::vector<Tensor> F(5, Tensor::Identity()), out(5);
   std::vector<Vector> x(5, Vector::Zero()), v = x;
   std::vector<double> mises(5);
-  const auto law = hmps::NeoHookean<>::from_young(20e3, 0.4);
+  const auto law = hmps::NeoHookean<>::from_young_poisson(20e3, 0.4);
   const auto refused = [&](const auto& call) {
     F[3].setIdentity();
     EXPECT_NO_THROW(call());

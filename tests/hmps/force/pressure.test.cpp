@@ -69,7 +69,7 @@ TEST(Pressure, HasTheAreaOfTheFaceAndTurnsWithIt) {
 // A body whose uniform stress is - p is in equilibrium with the pressure p all around, particle by particle.
 TEST(Pressure, IsInEquilibriumWithAUniformStress) {
   Scene s;
-  const hmps::NeoHookean<> law = hmps::NeoHookean<>::from_young(20e3, 0.4);
+  const hmps::NeoHookean<> law = hmps::NeoHookean<>::from_young_poisson(20e3, 0.4);
   Tensor turn;
   turn << 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1;
   const Tensor F = 0.97 * turn;

@@ -16,7 +16,7 @@ TYPED_TEST_SUITE(LinearElasticOf, law_checks::Kinds);
 TYPED_TEST(LinearElasticOf, IsALawOfTheDeformationGradient) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
-  const auto law = LinearElastic<T>::from_young(T(70e6), T(1.0 / 3.0));
+  const auto law = LinearElastic<T>::from_young_poisson(T(70e6), T(1.0 / 3.0));
   static_assert(DeformationGradientLaw<LinearElastic<T>, T, D> && !HyperelasticLaw<LinearElastic<T>, T, D>);
   law_checks::runs_on_lanes<T, D>(law, law_checks::deformations<D>());
   if constexpr (D == 2) law_checks::is_plane_strain<T>(law);
@@ -44,7 +44,7 @@ TYPED_TEST(LinearElasticOf, IsLinearAndBlindToInfinitesimalRotation) {
 }
 
 TEST(LinearElastic, ModuliThatAreNotPositiveAreRefused) {
-  const auto law = LinearElastic<double>::from_young(1.4e6, 0.4);
+  const auto law = LinearElastic<double>::from_young_poisson(1.4e6, 0.4);
   EXPECT_NEAR(law.lambda, 2e6, 1e-5);
   EXPECT_NO_THROW(law.validate());
   EXPECT_THROW((LinearElastic<double>{-700, 1000}.validate()), InputError);

@@ -16,7 +16,7 @@ TYPED_TEST_SUITE(NeoHookeanOf, law_checks::Kinds);
 
 TYPED_TEST(NeoHookeanOf, IsAHyperelasticLaw) {
   using T = typename TypeParam::Scalar;
-  law_checks::hyperelastic<T, TypeParam::D>(NeoHookean<T>::from_young(T(17e6), T(0.45)));
+  law_checks::hyperelastic<T, TypeParam::D>(NeoHookean<T>::from_young_poisson(T(17e6), T(0.45)));
 }
 
 TYPED_TEST(NeoHookeanOf, IsMooneyRivlinWithoutItsSecondTerm) {
@@ -33,7 +33,7 @@ TYPED_TEST(NeoHookeanOf, IsMooneyRivlinWithoutItsSecondTerm) {
 }
 
 TEST(NeoHookean, ModuliFollowFromYoungAndPoisson) {
-  const auto law = NeoHookean<double>::from_young(17e6, 0.45);
+  const auto law = NeoHookean<double>::from_young_poisson(17e6, 0.45);
   const double K = law.bulk_modulus(), G = law.shear_modulus();
   EXPECT_NEAR(9 * K * G / (3 * K + G), 17e6, 1e-2);
   EXPECT_NEAR((3 * K - 2 * G) / (2 * (3 * K + G)), 0.45, 1e-12);
@@ -43,8 +43,8 @@ TEST(NeoHookean, ModuliThatAreNotPositiveAreRefused) {
   EXPECT_NO_THROW((NeoHookean<double>{1, 1}.validate()));
   EXPECT_THROW((NeoHookean<double>{0, 1}.validate()), InputError);
   EXPECT_THROW((NeoHookean<double>{1, -1}.validate()), InputError);
-  EXPECT_THROW((NeoHookean<double>::from_young(1e4, 0.5).validate()), InputError);
-  EXPECT_THROW((NeoHookean<double>::from_young(-1e4, 0.3).validate()), InputError);
+  EXPECT_THROW((NeoHookean<double>::from_young_poisson(1e4, 0.5).validate()), InputError);
+  EXPECT_THROW((NeoHookean<double>::from_young_poisson(-1e4, 0.3).validate()), InputError);
 }
 
 }  // namespace neo_hookean_test

@@ -15,7 +15,7 @@ TYPED_TEST_SUITE(SaintVenantKirchhoffOf, law_checks::Kinds);
 
 TYPED_TEST(SaintVenantKirchhoffOf, IsAHyperelasticLaw) {
   using T = typename TypeParam::Scalar;
-  law_checks::hyperelastic<T, TypeParam::D>(SaintVenantKirchhoff<T>::from_young(T(1.4e6), T(0.4)));
+  law_checks::hyperelastic<T, TypeParam::D>(SaintVenantKirchhoff<T>::from_young_poisson(T(1.4e6), T(0.4)));
 }
 
 TYPED_TEST(SaintVenantKirchhoffOf, UniaxialStrainHasItsCubic) {
@@ -33,14 +33,14 @@ TYPED_TEST(SaintVenantKirchhoffOf, UniaxialStrainHasItsCubic) {
 }
 
 TEST(SaintVenantKirchhoff, ModuliThatAreNotPositiveAreRefused) {
-  const auto law = SaintVenantKirchhoff<double>::from_young(1.4e6, 0.4);
+  const auto law = SaintVenantKirchhoff<double>::from_young_poisson(1.4e6, 0.4);
   EXPECT_NEAR(law.shear_modulus(), 0.5e6, 1e-6);
   EXPECT_NEAR(law.lambda, 2e6, 1e-5);
   EXPECT_NO_THROW(law.validate());
   EXPECT_NO_THROW((SaintVenantKirchhoff<double>{-100, 1000}.validate()));
   EXPECT_THROW((SaintVenantKirchhoff<double>{-700, 1000}.validate()), InputError);
   EXPECT_THROW((SaintVenantKirchhoff<double>{1000, 0}.validate()), InputError);
-  EXPECT_THROW((SaintVenantKirchhoff<double>::from_young(1e4, 0.5).validate()), InputError);
+  EXPECT_THROW((SaintVenantKirchhoff<double>::from_young_poisson(1e4, 0.5).validate()), InputError);
 }
 
 }  // namespace saint_venant_kirchhoff_test

@@ -82,7 +82,7 @@ TEST(FitParticles, FillsATiltedPlateWithWholeLayers) {
       ++count[static_cast<std::size_t>(std::clamp(std::lround(layer), 0L, layers - 1L))];
     }
     for (const int n : count) EXPECT_NEAR(n, sum(count) / layers, 0.15 * sum(count) / layers) << thickness;
-    EXPECT_LT(fitted.largest_distance, 1e-9);
+    EXPECT_LT(fitted.largest_deviation, 1e-9);
     EXPECT_GT(nearest(fitted.positions, 1.5), 0.55);
     // Along edges and in corners, half a layer from two or three faces, support is less than on a lattice.
     for (const auto& [i, support] : hmps::find_weak(hmps::vectors(fitted.positions), {.spacing = 1})) {
@@ -133,7 +133,7 @@ TEST(FitParticles, SharesOutTheVolume) {
     const double volume = 4 * 3.14159265358979 / 3 * radius * radius * radius;
     EXPECT_NEAR(sum(fitted.volumes), volume, 1e-3 * volume);
     EXPECT_NEAR(static_cast<double>(fitted.size()), volume, 4);
-    EXPECT_LT(fitted.largest_distance, 1e-9);
+    EXPECT_LT(fitted.largest_deviation, 1e-9);
     ASSERT_EQ(fitted.volumes.size(), fitted.size());
     for (const double v : fitted.volumes) EXPECT_NEAR(v, volume / static_cast<double>(fitted.size()), 0.35);
   }
@@ -159,7 +159,7 @@ TEST(FitParticles, FillsACurvedShellWithWholeLayers) {
     const double share = (std::pow(5.6 + (k + 1) * s, 3) - std::pow(5.6 + k * s, 3)) / all;
     EXPECT_NEAR(count[static_cast<std::size_t>(k)] / sum(count), share, 0.02) << k;
   }
-  EXPECT_LT(fitted.largest_distance, 1e-6);
+  EXPECT_LT(fitted.largest_deviation, 1e-6);
 }
 
 TEST(FitParticles, WorksInTwoDimensionsAndInFloat) {
@@ -242,7 +242,7 @@ TEST(FitParticles, LeavesThinEdgesToTheirNeighboursAndFillsJunctions) {
   EXPECT_NEAR(sum(joined.volumes), 216, 0.2);
   EXPECT_NEAR(static_cast<double>(joined.size()), 216, 4);
   // Where the number of layers changes, particles may end between two levels.
-  EXPECT_LT(joined.largest_distance, 0.02);
+  EXPECT_LT(joined.largest_deviation, 0.02);
   EXPECT_GT(nearest(joined.positions, 1.5), 0.5);
 }
 
@@ -315,7 +315,7 @@ TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(a.positions, b.positions);
   EXPECT_EQ(a.volumes, b.volumes);
-  EXPECT_EQ(a.largest_distance, b.largest_distance);
+  EXPECT_EQ(a.largest_deviation, b.largest_deviation);
 }
 
 // The distance to a mesh takes microseconds. Sampling every point of every cell that the surface cuts would take 3200
@@ -366,19 +366,19 @@ TEST(FitParticles, AppendsAnotherPart) {
     EXPECT_EQ(both.layers[i], part.layers[k]);
     EXPECT_EQ(both.layer_spacings[i], part.layer_spacings[k]);
   }
-  EXPECT_EQ(both.largest_distance, std::max(left.largest_distance, right.largest_distance));
+  EXPECT_EQ(both.largest_deviation, std::max(left.largest_deviation, right.largest_deviation));
 }
 
 TEST(FitParticles, TellsItsProgress) {
   const hmps::Ball<double, 3> ball{.radius = 2};
   int calls = 0;
   double move = 0;
-  const auto fitted = fit_particles(ball, Box<double, 3>{V3::Constant(-3), V3::Constant(3)}, 1.0, {.iterations = 40},
-                                    hmps::Serial{}, [&](const hmps::FitProgress& progress) {
-                                      EXPECT_EQ(progress.iteration, ++calls);
-                                      EXPECT_EQ(progress.iterations, 40);
-                                      move = progress.move;
-                                    });
+  const auto fitted = fit_particles(ball, Box<double, 3>{V3::Constant(-3), V3::Constant(3)}, 1.0,
+                                    {.iterations = 40, .progress = [&](const hmps::FitProgress& progress) {
+                                       EXPECT_EQ(progress.iteration, ++calls);
+                                       EXPECT_EQ(progress.iterations, 40);
+                                       move = progress.move;
+                                     }});
   EXPECT_EQ(calls, 40);
   EXPECT_EQ(fitted.iterations, 40);
   EXPECT_LE(move, 0.2 / 40 + 1e-12);

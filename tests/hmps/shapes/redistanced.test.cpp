@@ -97,7 +97,7 @@ TEST(Redistanced, LetsAnyShapeBeFitted) {
   double sum = 0;
   for (const double volume : fitted.volumes) sum += volume;
   EXPECT_NEAR(sum, exact, 0.01 * exact);
-  EXPECT_LT(fitted.largest_distance, 0.05 * l0);
+  EXPECT_LT(fitted.largest_deviation, 0.05 * l0);
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const V& x = fitted.positions[i];
     EXPECT_EQ(fitted.layers[i], 2);

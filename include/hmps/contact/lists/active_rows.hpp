@@ -70,12 +70,12 @@ class ActiveRows {
 
 template <class S>
 void ActiveRows<S>::number_awake(const OrganPairs& organs) {
-  awake_of_.assign(organs.particle().size(), no_particle);
+  awake_of_.assign(organs.particle().size(), no_index);
   for (const Row& row : rows_) awake_of_[row.slave] = 0;
   for (const Index j : master_of_) awake_of_[j] = 0;
   awake_.clear();
   for (std::size_t i = 0; i < awake_of_.size(); ++i)
-    if (awake_of_[i] != no_particle) {
+    if (awake_of_[i] != no_index) {
       awake_of_[i] = static_cast<Index>(awake_.size());
       awake_.push_back({organs.particle()[i], organs.flags()[i], 0, 0});
     }

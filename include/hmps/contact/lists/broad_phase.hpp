@@ -87,7 +87,7 @@ void BroadPhase<S, D>::build(const Source& source, const AnyExecutor& execute) {
   limit_.assign(sides, S(0));
   for (std::size_t s = 0; s < sides; ++s)
     if (const Part part = choose(source, s); !part.slaves.empty()) search(source, s, part, execute);
-  require(masters_.size() < no_particle, "hmps: ", masters_.size(),
+  require(masters_.size() + rows_.size() < no_index, "hmps: ", masters_.size() + rows_.size(),
           " candidates for contact are more than a 32-bit index can number; name fewer slaves and masters");
   rows_.push_back({0, 0, 0, static_cast<Index>(masters_.size())});
   list_rows_of_particles(source.place.size());

@@ -84,7 +84,7 @@ class Candidates {
   }
   void number();
   template <class X, class Gradients, class E>
-  [[nodiscard]] bool measure(const X& x, const Gradients& F, const E& execute);
+  [[nodiscard]] bool measure(const X& x, const Gradients& F, bool is_first, const E& execute);
   [[nodiscard]] bool is_used_up() const;
   template <class X, class E>
   void build(const X& x, const E& execute);
@@ -122,16 +122,19 @@ template <class S, int D, Metaball Kernel>
 template <class X, class Gradients, class E>
 void Candidates<S, D, Kernel>::check(const X& x, const Gradients& F, const E& execute) {
   if (!numbered_) number();
-  if (!built_) sleeping_.resize(organs_.slots());
+  // What follows may throw when places have been replaced but no list has been built for them. Then all starts anew.
+  const bool is_first = !std::exchange(built_, false);
+  if (is_first) sleeping_.resize(organs_.slots());
   schedule_.choose_interval(active_.master_of().size(), cost_of_check());
-  const bool has_deformed = measure(x, F, execute);
+  const bool has_deformed = measure(x, F, is_first, execute);
   ++checks_;
-  if (!built_ || is_used_up()) build(x, execute);
+  if (is_first || is_used_up()) build(x, execute);
   limit_travel();
   const bool has_turned = sleeping_.put_to_sleep(source(), schedule_.interval(), execute);
   late_ += has_deformed || has_turned;
   schedule_.start_interval();
   select();
+  built_ = true;
 }
 
 /// Numbers the particles of all organs once each.
@@ -143,13 +146,14 @@ void Candidates<S, D, Kernel>::number() {
   numbered_ = true;
 }
 
-/// Measures particles and organs. Returns whether a particle of a row has deformed by more than was allowed for.
+/// Measures particles and organs, for the first time if `is_first`. Returns whether a particle of a row has deformed by
+/// more than was allowed for.
 template <class S, int D, Metaball Kernel>
 template <class X, class Gradients, class E>
-bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, const E& execute) {
+bool Candidates<S, D, Kernel>::measure(const X& x, const Gradients& F, bool is_first, const E& execute) {
   const auto is_listed = [&](std::size_t i) { return list_.rows_of_begin(i) < list_.rows_of_begin(i + 1); };
   const bool has_deformed =
-      particles_.measure(x, F, organs_.particle(), !built_, schedule_.interval(), is_listed, execute);
+      particles_.measure(x, F, organs_.particle(), is_first, schedule_.interval(), is_listed, execute);
   motion_.measure(organs_, particles_.place(), particles_.reach(), execute);
   return has_deformed;
 }
@@ -166,12 +170,10 @@ bool Candidates<S, D, Kernel>::is_used_up() const {
 template <class S, int D, Metaball Kernel>
 template <class X, class E>
 void Candidates<S, D, Kernel>::build(const X& x, const E& execute) {
-  built_ = false;  // until the build succeeds
   particles_.centre_origin(x, organs_.particle());
   motion_.restart(particles_.place(), particles_.reach());
   list_.build({organs_, particles_.place(), particles_.reach(), particles_.compression(), particles_.radius(), margin_},
               [&](std::size_t n, const std::function<void(std::size_t)>& body) { execute(n, body); });
-  built_ = true;
   ++rebuilds_;
 }
 

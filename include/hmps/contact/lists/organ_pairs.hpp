@@ -22,8 +22,6 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// The roles of a particle in an organ, as bits.
 enum : std::uint8_t { is_slave = 1, is_master = 2, is_prescribed = 4 };
-/// Marks the absence of a particle number.
-inline constexpr Index no_particle = std::numeric_limits<Index>::max();
 
 /// The organs of a scene and the pairs that may touch: declared once, without any state.
 ///
@@ -127,7 +125,7 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
   for (const Index i : organ.slaves) all.emplace_back(i, is_slave);
   for (const Index i : organ.masters) all.emplace_back(i, is_master);
   std::sort(all.begin(), all.end());
-  require(all.back().first != no_particle, "hmps: organ '", organ.name, "' names particle ", no_particle,
+  require(all.back().first != no_index, "hmps: organ '", organ.name, "' names particle ", no_index,
           ", which is not a valid index");
   const ParticleSet* const prescribed_set = set_in(organ.prescribed);
   require(prescribed_set == nullptr || all.back().first < prescribed_set->scene_size(), "hmps: organ '", organ.name,
@@ -139,7 +137,7 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
     const double radius = organ.radius && at->second == is_slave ? checked_radius(organ, i, spacing) : spacing / 2;
     auto flags = static_cast<std::uint8_t>(organ.prescribed && organ.prescribed(i) ? is_prescribed : 0);
     for (; at != all.end() && at->first == i; ++at) flags = static_cast<std::uint8_t>(flags | at->second);
-    own.push_back({i, no_particle, flags, radius});
+    own.push_back({i, no_index, flags, radius});
   }
   views_ = std::max(views_, static_cast<std::size_t>(all.back().first) + 1);
   organs_.push_back({organ.name, members_.size(), members_.size() + own.size()});

@@ -168,7 +168,7 @@ bool ParticleBounds<S, D>::measure(const X& x, const Gradients& F, const std::ve
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(chunk % width == 0);
   execute(chunks_.size(), [&](std::size_t q) {
-    Chunk found{false, no_particle};
+    Chunk found{false, no_index};
     const std::size_t end = std::min(particle.size(), (q + 1) * chunk);
     for (std::size_t begin = q * chunk; begin < end; begin += width) {
       const auto deformation =
@@ -205,7 +205,7 @@ template <class S, int D>
 template <class Gradients>
 void ParticleBounds<S, D>::check_flat(const Gradients& F, const std::vector<Index>& particle) const {
   for (std::size_t q = 0; q < chunks_.size(); ++q) {
-    if (chunks_[q].flat == no_particle) continue;
+    if (chunks_[q].flat == no_index) continue;
     for (std::size_t i = chunks_[q].flat; i < std::min(particle.size(), (q + 1) * chunk); ++i)
       require_gradient<D>(F[particle[i]].template cast<double>(), particle[i]);
   }

@@ -227,6 +227,25 @@ TEST(Candidates, StartAnewAfterWhatWasNotFinite) {
   EXPECT_EQ(lists.rebuilds(), 1U);
 }
 
+TEST(Candidates, StartAnewAfterAStateInMidRunThatWasNotFinite) {
+  Pile pile(0.8);
+  Lists lists(1e-3, 0.5e-3), other(1e-3, 0.5e-3);
+  declare(lists, pile);
+  const auto update = [&](Lists& each) { each.update(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}); };
+  update(lists);
+  update(lists);
+  const auto x = pile.x;
+  for (const hmps::Index i : pile.block.bottom) pile.x[i][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(lists.check(hmps::vectors(pile.x), hmps::matrices(pile.F), hmps::Serial{}), hmps::StateError);
+  pile.x = x;
+  declare(other, pile);
+  for (int call = 0; call < 3; ++call) {
+    update(lists);
+    update(other);
+    EXPECT_EQ(listed(lists), listed(other)) << call;
+  }
+}
+
 TEST(Candidates, TakeInAnOrganThatIsAddedLater) {
   Pile pile(0.8);
   Lists lists(1e-3, 0.5e-3), other(1e-3, 0.5e-3);

@@ -70,7 +70,7 @@ TEST(OrganPairs, RefuseWhatWouldCountTwice) {
 
 TEST(OrganPairs, RefuseWhatIsNoOrganOrNoIndex) {
   OrganPairs pairs;
-  const List some{1}, none{hmps::detail::no_particle};
+  const List some{1}, none{hmps::detail::no_index};
   EXPECT_THROW(pairs.add_organ({.name = "empty"}, 1), hmps::InputError);
   EXPECT_THROW(pairs.add_organ({.name = "none", .slaves = none}, 1), hmps::InputError);
   const auto a = pairs.add_organ({.name = "a", .slaves = some}, 1);

@@ -13,6 +13,7 @@
 
 #include "hmps/contact/contact_history.hpp"
 #include "hmps/contact/contact_settings.hpp"
+#include "hmps/contact/friction.hpp"
 #include "hmps/contact/lists/candidates.hpp"
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
@@ -239,7 +240,7 @@ class MetaballContact {
   }
   /// Throws `InputError` for organs without any pair, and for a spacing far below that of the particles of an organ.
   template <class X>
-  void require_scene(const X& x);
+  void require_plausible_organs(const X& x);
   /// Computes the forces of all rows that touch, for `hand_out`.
   template <class X, class V, class G, class E>
   ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
@@ -278,7 +279,7 @@ class MetaballContact {
   [[no_unique_address]] Penalty penalty_;
   std::vector<PairSetting> own_;  // per pair: overrides `settings_`
   std::vector<PairLaw> laws_;     // per pair, for the current call
-  std::size_t seen_organs_ = 0;   // by `require_scene`
+  std::size_t seen_organs_ = 0;   // by `require_plausible_organs`
   Lists lists_;
   std::vector<detail::Master<S, D>> masters_;  // per awake particle
   std::vector<detail::MovingMaster<S, D>> moving_;
