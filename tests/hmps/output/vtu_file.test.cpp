@@ -115,6 +115,23 @@ TEST(VtuFileMisuse, TwoSeriesOnOnePathAreNoticed) {
   EXPECT_EQ(detail::read_text((folder.path() / "run.pvd").string()), pvd_text(second.frames()));
 }
 
+TEST(VtuSeries, TakesAFrameAgainThatCouldNotBeWritten) {
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "run.pvd";
+  const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
+  VtuSeries series(path);
+  series.add(0, vectors(x));
+  const std::string before = detail::read_text(path.string());
+  const auto obstacle = folder.path() / "run.pvd.part";  // a folder in place of the temporary file, and not empty
+  std::filesystem::create_directories(obstacle / "full");
+  EXPECT_THROW(series.add(0.1, vectors(x)), InputError);
+  EXPECT_EQ(detail::read_text(path.string()), before);
+  EXPECT_EQ(series.frames().size(), 1U);
+  std::filesystem::remove_all(obstacle);
+  series.add(0.1, vectors(x));
+  EXPECT_EQ(series.frames().size(), 2U);
+}
+
 TEST(VtuSeries, StaysInItsFolderWhereverTheProgramGoes) {
   const Cloud cloud;
   const hmps_test::TemporaryFolder folder, elsewhere;
