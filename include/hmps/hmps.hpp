@@ -100,6 +100,7 @@
 #include "hmps/lanes/lane_math.hpp"
 #include "hmps/lanes/lanes.hpp"
 #include "hmps/lanes/multiply_add.hpp"
+#include "hmps/lanes/pieces.hpp"
 #include "hmps/lanes/places.hpp"
 #include "hmps/lanes/quad.hpp"
 #include "hmps/lanes/registers.hpp"

@@ -183,7 +183,7 @@ class BondList : public Blocks<K, D> {
     detail::require_plausible_spacing(search, settings, reach);
     const NeighbourList list = find_neighbours(search, reach);
     keep_bonds(
-        static_cast<double>(reach),
+        static_cast<double>(reach), settings.spacing,
         [&](Index i, const auto& keep) {
           for (const Index j : list[i]) {
             if (!detail::are_bonded(bonded, std::size_t{i}, std::size_t{j}, settings.unbonded)) continue;
@@ -199,7 +199,7 @@ class BondList : public Blocks<K, D> {
   template <class T>
   BondList(const VectorView<T, D>& reference, const detail::OwnBonds& own)
       : Base(reference, checked_order(reference, {.spacing = own.spacing(reference)})) {
-    keep_bonds(own.longest(reference), [&](Index i, const auto& keep) {
+    keep_bonds(own.longest(reference), own.spacing(reference), [&](Index i, const auto& keep) {
       for (const auto& bond : own[i])
         keep(bond.neighbour, this->reference(bond.neighbour) - this->reference(i), bond.weight);
     });
@@ -208,10 +208,11 @@ class BondList : public Blocks<K, D> {
   /// Stores the bonds for which `visit(i, keep)` calls `keep(j, r0, w)`; none may be longer than `reach` (m). Particles
   /// without bonds are an error unless they may be `unbonded`.
   template <class Visit>
-  void keep_bonds(double reach, Visit&& visit, bool unbonded = false) {
+  void keep_bonds(double reach, double spacing, Visit&& visit, bool unbonded = false) {
     places_ = detail::Places<K, D>(*this, reach);
     runs_.reserve(this->block_count());
     ShapeTensor<D> fullest;
+    detail::JoinedParticles joined(this->size());
     std::array<std::vector<typename detail::BondRuns<K>::Bond>, 2> halves;
     for (std::size_t block = 0; block < this->block_count(); ++block) {
       for (auto& half : halves) half.clear();
@@ -222,6 +223,7 @@ class BondList : public Blocks<K, D> {
         visit(i, [&](Index j, const Vector<double, D>& r0, double w) {
           halves[l / half_width].push_back({first_of(this->slot(j), l), static_cast<std::uint32_t>(l), K(w)});
           shape.add(r0, w);
+          if (j > i) joined.join(i, j);
         });
         this->keep_shape(i, shape.inverse(i, unbonded), shape.asymmetry, shape.A.trace());
         if (shape.weight > fullest.weight) fullest = shape;
@@ -232,7 +234,8 @@ class BondList : public Blocks<K, D> {
     // If no particle has a bond, nothing is summed and any scale will do.
     if (this->size() > 0)
       this->keep_standard(fullest.weight > 0 ? fullest.weight : 1,
-                          fullest.weight > 0 ? fullest.A.trace() / fullest.weight : 1);
+                          fullest.weight > 0 ? fullest.A.trace() / fullest.weight : spacing * spacing);
+    this->keep_pieces(joined, spacing);
     runs_.pad(ahead);
   }
 

@@ -176,6 +176,7 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<typename Rows::Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
+    detail::JoinedParticles joined(n);
     detail::require(settings.radius_ratio >= 1 && settings.radius_ratio < 16, "hmps: the effective radius is ",
                     settings.radius_ratio, " spacings; on a lattice it must be at least 1 and below 16");
     auto around = detail::cells_within<D>(settings.radius_ratio);
@@ -203,6 +204,7 @@ class LatticeBonds : public Blocks<K, D> {
             !detail::are_bonded(bonded, this->particle(s), this->particle(t), settings.unbonded))
           continue;
         shapes[this->particle(s)].add(r0, w);
+        if (t > s) joined.join(this->particle(s), this->particle(t));
         const std::size_t group = s / width * directions + axes_of(cell) - 1;
         const auto first =
             static_cast<std::int32_t>(static_cast<std::ptrdiff_t>(t) - static_cast<std::ptrdiff_t>(s % width));
@@ -221,6 +223,7 @@ class LatticeBonds : public Blocks<K, D> {
     for (std::size_t i = 0; i < n; ++i)
       this->keep_shape(i, shapes[i].inverse(i, settings.unbonded), shapes[i].asymmetry, shapes[i].A.trace());
     this->share_shapes();
+    this->keep_pieces(joined, settings.spacing);
     detail::require_standard_weight(inside.weight);
     this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
   }

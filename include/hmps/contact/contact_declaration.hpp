@@ -101,8 +101,8 @@ class MetaballContact {
   }
 
   /// What contact remembers between calls, as numbers that a double represents exactly: on which side of a wall each
-  /// slave in contact is and, for `SpringFriction`, its elastic slip and the positions of the latest call. Store it in
-  /// a checkpoint, or before calls that only probe the force.
+  /// slave in contact is, from where it measures positions and, for `SpringFriction`, the elastic slip and the
+  /// positions of the latest call. Store it in a checkpoint, or before calls that only probe the force.
   [[nodiscard]] std::vector<double> history() const;
   /// Replaces the history by one that `history` returned for a contact with the same settings, organs and pairs in the
   /// same order. The next call then gives the same bits as it would there. Throws `InputError` for any other numbers.

@@ -208,23 +208,29 @@ ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const 
   require_plausible_organs(x);
   set_laws(dt);
   if (lists_.update(x, F, execute)) resize();
-  history_.next_call();
   const std::size_t row_count = lists_.active().rows().size() - 1;
   ContactReport<S> report;
   report.candidates = lists_.active().master_of().size();
   report.rebuilds = lists_.rebuilds();
   report.late = lists_.late();
   touching_.clear();
-  if (row_count == 0) return report;
-
-  gather(x, v, F, execute);
+  if (row_count == 0) {
+    history_.next_call();
+    return report;
+  }
+  gather(x, v, F, execute);  // throws for an invalid state, which must not cost the history
   if constexpr (has_spring) motion_.update(x, lists_.organs().particle(), execute);
-  find(x, v, F, report, execute);
-  report.contacts = touching_.size();
-  if (touching_.empty()) return report;
-
-  if constexpr (!is_linear) require_stable(dt);
-  report.sticking = push(dt, execute);
+  history_.next_call();
+  try {
+    find(x, v, F, report, execute);
+    report.contacts = touching_.size();
+    if (touching_.empty()) return report;
+    if constexpr (!is_linear) require_stable(dt);
+    report.sticking = push(dt, execute);
+  } catch (...) {
+    history_.take_back_call();
+    throw;
+  }
   for (const Index r : touching_)
     if (state_[r].penetration > report.penetration) {
       report.penetration = state_[r].penetration;

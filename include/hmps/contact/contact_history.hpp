@@ -37,6 +37,12 @@ class ContactHistory {
 
   /// Begins a new call. A call without evaluations clears the history.
   void next_call() { ++call_; }
+  /// Ends a call that failed: what touched before it or in it counts as touching in the previous call.
+  void take_back_call() {
+    for (Entry& entry : entries_)
+      if (entry.call == call_) --entry.call;
+    --call_;
+  }
 
   /// Records that entry `k` touches in this call. `outward` is the direction in which the wall pushes, before the
   /// rotation of the masters; `inside` is whether the slave is so close that this direction may be wrong. Returns

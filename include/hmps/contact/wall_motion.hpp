@@ -100,16 +100,17 @@ class ParticleMotion {
       number_.push_back(static_cast<Index>(n));
     }
   }
-  /// Stores the positions `x` (m) of this call and updates the displacements, which are zero in the first call.
+  /// Stores the positions `x` (m) of this call and updates the displacements, which are zero in the first call of each
+  /// particle.
   template <class X, class E>
   void update(const X& x, const std::vector<Index>& particle, const E& execute) {
-    const bool known = place_.size() == particle.size();
-    place_.resize(particle.size(), Vector<double, D>::Zero());
+    if (place_.size() != particle.size()) take_in(x, particle);
+    if (particle_.empty()) particle_ = particle;  // in the first call, or the first one after `restore`
     moved_.resize(particle.size());
     execute((particle.size() + chunk - 1) / chunk, [&](std::size_t q) {
       for (std::size_t n = q * chunk; n < std::min(particle.size(), (q + 1) * chunk); ++n) {
         const Vector<double, D> place = x[particle[n]].template cast<double>();
-        set_quad<S>(known ? (place - place_[n]).template cast<S>().eval() : Vector<S, D>::Zero().eval(), moved_[n]);
+        set_quad<S>((place - place_[n]).template cast<S>().eval(), moved_[n]);
         place_[n] = place;
       }
     });
@@ -117,7 +118,10 @@ class ParticleMotion {
   /// The positions in m of all particles at the latest call; none before the first.
   [[nodiscard]] const std::vector<Vector<double, D>>& places() const { return place_; }
   /// Takes `places` as the positions at the latest call.
-  void restore(std::vector<Vector<double, D>> places) { place_ = std::move(places); }
+  void restore(std::vector<Vector<double, D>> places) {
+    place_ = std::move(places);
+    particle_.clear();
+  }
   /// The displacement in m of an active particle.
   [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }
   /// The vector in m from the active particle `from` to `to`.
@@ -127,7 +131,23 @@ class ParticleMotion {
 
  private:
   static constexpr std::size_t chunk = 512;
-  std::vector<Vector<double, D>> place_;  // of all particles, at the latest call
+
+  /// Adds particles of organs that are new, which have not moved yet. Both lists ascend, and none loses a particle.
+  template <class X>
+  HMPS_COLD void take_in(const X& x, const std::vector<Index>& particle) {
+    std::vector<Vector<double, D>> place;
+    std::size_t k = 0;
+    for (const Index i : particle) {
+      const bool known = k < particle_.size() && particle_[k] == i;
+      place.push_back(known ? place_[k] : Vector<double, D>(x[i].template cast<double>()));
+      k += known;
+    }
+    place_ = std::move(place);
+    particle_ = particle;
+  }
+
+  std::vector<Index> particle_;           // all particles, in the latest call
+  std::vector<Vector<double, D>> place_;  // of these
   std::vector<Quad<S>> moved_;
   std::vector<Index> number_;  // per awake particle, among all
 };

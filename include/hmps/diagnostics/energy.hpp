@@ -122,7 +122,7 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   detail::require_not_negative(modulus, bonds.size(), "modulus of the stabiliser", "Pa");
   using K = typename B::Scalar;
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
-  const Vector<double, D> common = detail::common_displacement(bonds, x);
+  const auto common = detail::common_displacement(bonds, x);
   execute(bonds.block_count(),
           [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
   std::vector<double> error(bonds.size());

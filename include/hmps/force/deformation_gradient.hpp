@@ -54,7 +54,7 @@ void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const Matri
   require_size(x, bonds.size(), "positions");
   require_size(F, bonds.size(), "deformation gradients");
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
-  const Vector<double, D> common = detail::common_displacement(bonds, x);
+  const auto common = detail::common_displacement(bonds, x);
   execute(bonds.block_count(),
           [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
   execute(bonds.block_count(), [&](std::size_t block) {

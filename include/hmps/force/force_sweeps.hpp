@@ -60,10 +60,18 @@ class ForceSweeps {
            pressure_.bytes() + scales_.bytes();
   }
 
+  /// Sets to zero what the sweeps wrote: blocks that are not evaluated from now on are read with a weight of zero, which
+  /// does not remove a NaN.
+  void forget(const B& bonds) {
+    coupling_ = decltype(coupling_)(bonds.slot_count());
+    dilatation_ = decltype(dilatation_)(bonds.slot_count());
+    pressure_ = decltype(pressure_)(bonds.slot_count());
+  }
+
   /// Copies the state of the particles of `block` to the slots.
   template <class X, class V>
   HMPS_INLINE void stage_state(const B& bonds, std::size_t block, const VectorView<X, D>& x, const VectorView<V, D>& v,
-                               const Vector<double, D>& common) {
+                               const CommonDisplacement<D>& common) {
     if constexpr (Parts::displaces) detail::stage_displacement(bonds, block, x, common, displacement_);
     if constexpr (damps) detail::stage(bonds, block, v, velocity_);
     if constexpr (Parts::damps_each) {

@@ -71,6 +71,7 @@ class InternalForce {
     const B& now = bonds();
     detail::require_scene(moves, now.size(), "that move in `restrict_to`");
     restricted_.restrict_to(now, moves, Sweeps::means);
+    sweeps_.forget(now);
   }
 
   /// WRITES the force density (N/m3) of every particle at positions `x` (m) and velocities `v` (m/s) to `f`. Throws
@@ -217,7 +218,7 @@ class InternalForce {
   /// `force(d)` returns the lanes of component d of the force density.
   template <class X, class V, class E, class Take>
   void evaluate(const B& now, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
-    const Vector<double, D> common = detail::common_displacement(now, x);
+    const auto common = detail::common_displacement(now, x);
     execute(now.block_count(), [&](std::size_t block) { sweeps_.stage_state(now, block, x, v, common); });
     if constexpr (dilates) {
       restricted_.dilated(now, execute, [&](std::size_t block) { sweeps_.dilate(now, block); });

@@ -19,6 +19,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/lanes.hpp"
+#include "hmps/lanes/pieces.hpp"
 #include "hmps/lanes/slots.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -71,8 +72,10 @@ class Blocks : public detail::Anchored {
   }
 
   /// Before displacements are rounded to `K`, the sweeps subtract the displacement of one particle in the middle of
-  /// their order, `particle(size() / 2)`. After this call they subtract `common` (m) instead, so that the parts of a
-  /// body, each on its own machine, round as the whole does. Throws `InputError` if `common` is not finite.
+  /// their order, `particle(size() / 2)`; for a piece without bonds to that particle which has moved further than
+  /// `far_apart` from it, that of one of its own particles. After this call they subtract `common` (m) from all
+  /// instead, so that the parts of a body, each on its own machine, round as the whole does. Throws `InputError` if
+  /// `common` is not finite.
   void subtract_displacement(const Vector<double, D>& common) {
     detail::require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
                     ") m; give finite numbers");
@@ -80,6 +83,10 @@ class Blocks : public detail::Anchored {
   }
   /// The argument of `subtract_displacement`, if it was called.
   [[nodiscard]] const std::optional<Vector<double, D>>& subtracted_displacement() const { return common_; }
+  /// The pieces that no bonds join.
+  [[nodiscard]] const detail::Pieces& pieces() const { return pieces_; }
+  /// The displacement in m, about 100 spacings in float, whose rounding to `K` is 1.25e-5 spacings.
+  [[nodiscard]] double far_apart() const { return far_apart_; }
 
   /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}). `LatticeBonds` takes those
   /// of the full lattice, `BondList` those of the particle with the largest sum of weights.
@@ -89,7 +96,7 @@ class Blocks : public detail::Anchored {
   /// Memory of the reference configuration in bytes, without the bonds.
   [[nodiscard]] std::size_t bytes() const {
     return (particle_of_.size() + slot_of_.size() + shape_block_.size()) * sizeof(Index) + consecutive_.size() +
-           reference_.bytes() + shape_.bytes();
+           reference_.bytes() + shape_.bytes() + pieces_.bytes();
   }
 
   // The sweeps read the following, one block of lanes at a time.
@@ -180,6 +187,11 @@ class Blocks : public detail::Anchored {
     standard_density_ = density;
     standard_lambda_ = lambda;
   }
+  /// Keeps the pieces of a body with the particle `spacing` (m) from all particles that bonds join.
+  void keep_pieces(detail::JoinedParticles& joined, double spacing) {
+    pieces_ = detail::Pieces(joined, particle_of_);
+    far_apart_ = 1.25e-5 * spacing / static_cast<double>(std::numeric_limits<K>::epsilon());
+  }
 
  private:
   // Components of shape_: those of A^-1 on and above the diagonal, then these.
@@ -204,6 +216,8 @@ class Blocks : public detail::Anchored {
   Shapes shape_;
   std::vector<Index> shape_block_;  ///< Index into shape_ of the lanes of each block.
   std::optional<Vector<double, D>> common_;
+  detail::Pieces pieces_;
+  double far_apart_ = 0;
   double standard_density_ = 0;
   double standard_lambda_ = 0;
 };

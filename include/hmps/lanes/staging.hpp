@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/finite.hpp"
@@ -64,20 +65,51 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
   stage(blocks, block, view, slots, [](T number, std::size_t, int) { return static_cast<K>(number); });
 }
 
-/// The displacement (m) that is subtracted from all particles: the argument of `Blocks::subtract_displacement` if there
-/// is one, otherwise the displacement of the particle in the middle of the sweep order, with components that are not
-/// finite set to zero.
+/// The displacements (m) that are subtracted from particles before they are rounded to the scalar type of the sweeps.
+template <int D>
+struct CommonDisplacement {
+  Vector<double, D> of_all = Vector<double, D>::Zero();
+  /// By piece of the body, in place of `of_all`; empty unless a piece has moved far from the others.
+  std::vector<Vector<double, D>> of_piece{};
+};
+
+/// The argument of `Blocks::subtract_displacement` if there is one, otherwise the displacement of the particle in the
+/// middle of the sweep order, and of each piece that has moved far from it, with components that are not finite set to
+/// zero.
 template <class K, int D, class T>
-[[nodiscard]] Vector<double, D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
-  if (blocks.subtracted_displacement()) return *blocks.subtracted_displacement();
-  Vector<double, D> common = Vector<double, D>::Zero();
-  if (blocks.size() == 0) return common;
-  const Index i = blocks.particle(blocks.size() / 2);
-  for (int c = 0; c < D; ++c) {
-    const double u = static_cast<double>(x(i, c)) - blocks.reference(i, c);
-    if (detail::is_finite(u)) common[c] = u;
+[[nodiscard]] CommonDisplacement<D> common_displacement(const Blocks<K, D>& blocks, const VectorView<T, D>& x) {
+  if (blocks.subtracted_displacement()) return {*blocks.subtracted_displacement()};
+  if (blocks.size() == 0) return {};
+  const auto displacement = [&](Index i) {
+    Vector<double, D> u = Vector<double, D>::Zero();
+    for (int c = 0; c < D; ++c) {
+      const double moved = static_cast<double>(x(i, c)) - blocks.reference(i, c);
+      if (is_finite(moved)) u[c] = moved;
+    }
+    return u;
+  };
+  CommonDisplacement<D> common{displacement(blocks.particle(blocks.size() / 2))};
+  const std::vector<Index>& middle = blocks.pieces().middle();
+  for (std::size_t p = 0; p < middle.size(); ++p) {
+    const Vector<double, D> own = displacement(middle[p]);
+    if (!((own - common.of_all).norm() > blocks.far_apart())) continue;
+    common.of_piece.resize(middle.size(), common.of_all);
+    common.of_piece[p] = own;
   }
   return common;
+}
+
+/// As `stage_displacement`, with a displacement of its own for each piece.
+template <class K, int D, class T, class Slots>
+HMPS_COLD void stage_displacement_of_pieces(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& x,
+                                            const CommonDisplacement<D>& common, Slots& slots) {
+  constexpr std::size_t width = Blocks<K, D>::width;
+  for (std::size_t slot = block * width; slot < (block + 1) * width; ++slot)
+    if (const Index i = blocks.particle(slot); i != Blocks<K, D>::none)
+      for (int c = 0; c < D; ++c)
+        slots(static_cast<std::size_t>(c), slot) =
+            static_cast<K>((static_cast<double>(x(i, c)) - blocks.reference_slots(c)[slot]) -
+                           common.of_piece[blocks.pieces().of(slot)][c]);
 }
 
 /// Stages displacements from the reference configuration minus `common`. The difference is taken in double before it is
@@ -85,9 +117,10 @@ template <class K, int D, class T>
 /// and a common displacement does not change any bond.
 template <class K, int D, class T, class Slots>
 HMPS_INLINE void stage_displacement(const Blocks<K, D>& blocks, std::size_t block, const VectorView<T, D>& x,
-                                    const Vector<double, D>& common, Slots& slots) {
+                                    const CommonDisplacement<D>& common, Slots& slots) {
+  if (!common.of_piece.empty()) return stage_displacement_of_pieces(blocks, block, x, common, slots);
   stage(blocks, block, x, slots, [&](T number, std::size_t slot, int c) {
-    return static_cast<K>((static_cast<double>(number) - blocks.reference_slots(c)[slot]) - common[c]);
+    return static_cast<K>((static_cast<double>(number) - blocks.reference_slots(c)[slot]) - common.of_all[c]);
   });
 }
 

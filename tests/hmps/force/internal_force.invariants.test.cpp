@@ -199,4 +199,31 @@ TYPED_TEST(Invariants, TravelDoesNotCostPrecision) {
             10 * state * 8e4 / scene.spacing);
 }
 
+// The same if one of two pieces that no bond joins moves away, up to the rounding of displacements to K, which are
+// taken from another particle then.
+TYPED_TEST(Invariants, TravelOfAPieceDoesNotCostPrecision) {
+  constexpr int D = TypeParam::dimension;
+  scenes::Scene<D> scene;
+  scene.reference = scenes::box<D>(scenes::extent<D>(9, 8, 7));
+  scenes::move(scene);
+  const double middle = (scene.reference.front()[0] + scene.reference.back()[0]) / 2;
+  const auto is_left = [&](std::size_t i) { return scene.reference[i][0] < middle; };
+  scene.bonded = [&](std::size_t i, std::size_t j) { return is_left(i) == is_left(j); };
+  const auto bonds = make_bonds<TypeParam>(scene);
+  EXPECT_EQ(bonds.pieces().middle().size(), 2U);
+  const Materials m(scene.x.size());
+  const auto here = this->evaluate(bonds, scene.x, m);
+  for (const bool left : {true, false}) {
+    auto x = scene.x;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (is_left(i) == left) x[i][0] += 16;
+    const auto there = this->evaluate(bonds, x, m);
+    const Tolerance<typename TypeParam::Scalar, D> tolerance(scene);
+    const double state = std::numeric_limits<double>::epsilon() * 16 / scene.spacing;
+    EXPECT_LE(largest_difference<D>(here.force, [&](std::size_t i) { return there.force[i]; }),
+              tolerance.elastic + tolerance.artificial + 10 * state * 8e4 / scene.spacing)
+        << (left ? "left" : "right");
+  }
+}
+
 }  // namespace internal_force_invariants_test

@@ -231,6 +231,29 @@ TEST(InternalForce, LeavesOutWhatOnlyPrescribedParticlesNeed) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(InternalForce, ForgetsANaNBeforeItLeavesParticlesOut) {
+  using Point = hmps::Vector<double, 2>;
+  for (int columns = 2; columns < 7; ++columns)
+    for (int rows = 2; rows < 12; ++rows) {
+      std::vector<Point> reference;
+      for (int a = 0; a < columns; ++a)
+        for (int b = 0; b < rows; ++b) reference.emplace_back(1e-3 * a, 1e-3 * b);
+      const std::size_t n = reference.size();
+      const hmps::LatticeBonds<double, 2> bonds(hmps::vectors(reference), {.spacing = 1e-3});
+      auto x = reference;
+      for (Point& place : x) place[0] *= 1.01;
+      const auto compose = [&] { return hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4)); };
+      auto force = compose(), other = compose();
+      std::vector<Point> expected(n), found(n);
+      const std::vector<Point> broken(n, Point::Constant(std::numeric_limits<double>::quiet_NaN()));
+      other(hmps::vectors(x), hmps::vectors(expected));
+      force(hmps::vectors(broken), hmps::vectors(found));
+      force.restrict_to([&](std::size_t i) { return i < n / 2; });
+      force(hmps::vectors(x), hmps::vectors(found));
+      for (std::size_t i = 0; i < n / 2; ++i) ASSERT_EQ(found[i], expected[i]) << columns << " x " << rows;
+    }
+}
+
 // Eq. (2) in the last sweep gives the same as the force followed by `kick`, whatever the layout.
 TEST(InternalForce, KicksAsForceAndKickDo) {
   for (const char* name : {"box whose rows are long in the first direction", "shuffled"}) {

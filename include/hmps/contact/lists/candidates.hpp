@@ -62,6 +62,14 @@ class Candidates {
   [[nodiscard]] std::size_t late() const { return late_; }
   void refresh() { built_ = false; }
 
+  /// From where positions are measured, in m.
+  [[nodiscard]] const Vector<double, D>& origin() const { return particles_.origin(); }
+  /// Measures positions from `origin` (m) and builds the lists anew.
+  void restore_origin(const Vector<double, D>& origin) {
+    built_ = built_ && origin == particles_.origin();
+    particles_.restore_origin(origin);
+  }
+
   /// The position of particle `i` of the view `x`, as `ParticleBounds::place_of`.
   template <class X>
   [[nodiscard]] HMPS_INLINE Point place_of(const X& x, std::size_t i) const {

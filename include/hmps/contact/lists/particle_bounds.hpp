@@ -12,6 +12,7 @@
 #include "hmps/contact/lists/organ_pairs.hpp"
 #include "hmps/contact/state_checks.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
@@ -51,6 +52,8 @@ class ParticleBounds {
   /// scalar type of `x`. Call it only before lists are built, because all places change.
   template <class X>
   void centre_origin(const X& x, const std::vector<Index>& particle);
+  [[nodiscard]] const Vector<double, D>& origin() const { return origin_; }
+  void restore_origin(const Vector<double, D>& origin) { origin_ = origin; }
   /// Limits the travel of each particle within `calls` calls to `most` (m): its drift to half of that, and its
   /// deviation to what the drift leaves.
   void limit_travel(S most, std::size_t calls);
@@ -109,6 +112,7 @@ class ParticleBounds {
   [[nodiscard]] HMPS_INLINE Point expected(std::size_t i, S calls) const { return place_[i] + calls * drift_[i]; }
   void move_to(std::size_t i, const Point& place, bool is_first, const CheckInterval& interval);
   [[nodiscard]] S update_metric(std::size_t i, const Matrix<Lanes<S>, D>& A, std::size_t lane);
+  void require_resolved_extent(const Vector<double, D>& middle, const std::vector<Index>& particle) const;
   template <class Gradients>
   void check_flat(const Gradients& F, const std::vector<Index>& particle) const;
 
@@ -211,6 +215,21 @@ void ParticleBounds<S, D>::check_flat(const Gradients& F, const std::vector<Inde
   }
 }
 
+/// Throws `InputError` if a particle is so far from the `middle` of all (m from the origin) that `S` does not resolve a
+/// hundredth of the spacing there.
+template <class S, int D>
+HMPS_COLD void ParticleBounds<S, D>::require_resolved_extent(const Vector<double, D>& middle,
+                                                             const std::vector<Index>& particle) const {
+  const double furthest = 0.01 * static_cast<double>(spacing_) / static_cast<double>(std::numeric_limits<S>::epsilon());
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    const double apart = (place_[i].template cast<double>() - middle).cwiseAbs().maxCoeff();
+    require(
+        apart <= furthest, "hmps: particle ", particle[i], " of contact is ", apart,
+        " m from the middle of all organs, where the scalar type of contact does not resolve 0.01 of the spacing of ",
+        spacing_, " m; use MetaballContact<double, ", D, ">, or a contact of its own for distant organs");
+  }
+}
+
 template <class S, int D>
 template <class X>
 void ParticleBounds<S, D>::centre_origin(const X& x, const std::vector<Index>& particle) {
@@ -223,6 +242,7 @@ void ParticleBounds<S, D>::centre_origin(const X& x, const std::vector<Index>& p
       high = high.cwiseMax(place);
     }
     const Vector<double, D> middle = 0.5 * (low.template cast<double>() + high.template cast<double>());
+    require_resolved_extent(middle, particle);
     if (place_.empty() || middle.cwiseAbs().maxCoeff() <= range) return;
     origin_ += middle;
     for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = place_of(x, particle[i]);

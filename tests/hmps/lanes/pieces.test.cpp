@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "hmps/lanes/pieces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace pieces_test {
+
+using hmps::Index;
+using hmps::detail::JoinedParticles;
+using hmps::detail::no_index;
+using hmps::detail::Pieces;
+
+TEST(Pieces, AreWhatBondsJoinDirectlyOrThroughOthers) {
+  JoinedParticles joined(7);
+  joined.join(5, 3);
+  joined.join(3, 1);
+  joined.join(1, 5);
+  joined.join(0, 6);
+  for (const Index i : {1, 3, 5}) EXPECT_EQ(joined.first_of(i), 1U);
+  EXPECT_EQ(joined.first_of(6), 0U);
+  EXPECT_EQ(joined.first_of(4), 4U);
+  // In the order of the slots: 5, 6, 3, 2, 4, 1, 0, and an empty one.
+  const Pieces pieces(joined, {5, 6, 3, 2, 4, 1, 0, no_index});
+  EXPECT_EQ(pieces.middle(), (std::vector<Index>{3, 0, 2, 4}));
+  for (const auto& [slot, piece] : std::vector<std::pair<std::size_t, Index>>{{0, 0}, {1, 1}, {2, 0}, {3, 2}, {6, 1}})
+    EXPECT_EQ(pieces.of(slot), piece) << slot;
+  EXPECT_GT(pieces.bytes(), 0U);
+}
+
+TEST(Pieces, StoreNothingIfThereIsOnlyOne) {
+  JoinedParticles joined(3);
+  joined.join(0, 2);
+  joined.join(2, 1);
+  const Pieces pieces(joined, {2, 0, 1, no_index});
+  EXPECT_TRUE(pieces.middle().empty());
+  EXPECT_EQ(pieces.bytes(), 0U);
+  JoinedParticles none(0);
+  EXPECT_TRUE(Pieces(none, std::vector<Index>()).middle().empty());
+}
+
+}  // namespace pieces_test
