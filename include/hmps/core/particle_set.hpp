@@ -41,6 +41,8 @@ class ParticleSet {
 
   /// Whether particle `i` belongs to the set; false if it is out of range.
   [[nodiscard]] bool operator()(std::size_t i) const { return i < member_.size() && member_[i] != 0; }
+  /// The same.
+  [[nodiscard]] bool contains(std::size_t i) const { return (*this)(i); }
   /// The particles of the set, in order.
   [[nodiscard]] const std::vector<Index>& indices() const { return indices_; }
   [[nodiscard]] auto begin() const { return indices_.begin(); }

@@ -42,6 +42,13 @@ struct OneParticle {
                     " particles, but particle ", index, " needs a vector too; give one for each");
     return parameter[index].template cast<double>();
   }
+  /// A tensor of the particle, such as that of its growth. Throws `InputError` if the view ends before it.
+  template <class P, int D>
+  [[nodiscard]] Matrix<double, D> operator()(const MatrixView<P, D>& parameter) const {
+    detail::require(index < parameter.size(), "hmps: the view of tensors holds ", parameter.size(),
+                    " particles, but particle ", index, " needs a tensor too; give one for each");
+    return parameter[index].template cast<double>();
+  }
   /// A parameter of the particle's body: `table[body[i]]`. Throws `InputError` for a body that is not in the table.
   template <class P, class B>
   [[nodiscard]] auto operator()(const ScalarView<P>& table, const ScalarView<B>& body) const {

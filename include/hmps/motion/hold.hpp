@@ -11,8 +11,9 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
-/// Particles that are held, or have one velocity component prescribed. Call these after the last kick and before the
-/// drift. For particles with prescribed motion see `ControlRegion`.
+/// Particles that are held, or have one velocity component prescribed. Call these after each kick: before the
+/// drift, and before velocities are read, as for the kinetic energy. For particles with prescribed motion see
+/// `ControlRegion`.
 namespace hmps::inline HMPS_ABI {
 
 /// Sets the velocities `v` (m/s) of the particles of `held` to zero: a clamp. Throws `InputError` for a set made for
@@ -27,6 +28,10 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 /// Sets component `c` of the velocities `v` (m/s) of the particles of `held` to `velocity` (m/s): with zero, a plane of
 /// symmetry or a frictionless guide perpendicular to that axis. Throws `InputError` for a component that does not
 /// exist, a velocity that is not finite and a set made for another number of particles.
+///
+/// For half of a symmetric body, let the held layer lie on the plane of symmetry and give the bonds volumes, half of
+/// l0^D there: half a block of 20 spacings between plates then took 0.07 % less force than the whole block, and 4.4 %
+/// more with whole volumes.
 template <class V, int D>
 void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
   require_size(v, held.scene_size(), "velocities");

@@ -54,6 +54,14 @@ class BlockParameters {
     for (int c = 0; c < D; ++c) result[c] = gather([&](Index i) { return parameter(i, c); });
     return result;
   }
+  /// A tensor per particle, such as that of its growth. Throws `InputError` if the array has another size.
+  template <class P>
+  [[nodiscard]] HMPS_INLINE Matrix<T, D> operator()(const MatrixView<P, D>& parameter) const {
+    require_size(parameter, blocks_.size(), "tensors");
+    Matrix<T, D> result;
+    for (int c = 0; c < D * D; ++c) result(c % D, c / D) = gather([&](Index i) { return parameter(i, c); });
+    return result;
+  }
   /// A parameter per body: `table[body[i]]`. Throws `InputError` if `body` has another size or an entry lies outside
   /// the table.
   template <class P, class B>

@@ -23,6 +23,8 @@ TEST(ParticleSet, IsAListAndAPredicate) {
   EXPECT_TRUE(odd(5));
   EXPECT_FALSE(odd(4));
   EXPECT_FALSE(odd(9));
+  EXPECT_TRUE(odd.contains(5));
+  EXPECT_FALSE(odd.contains(4));
   EXPECT_EQ(odd.size(), 3u);
   EXPECT_EQ(odd.scene_size(), 7u);
   EXPECT_EQ(List(odd.begin(), odd.end()), odd.indices());

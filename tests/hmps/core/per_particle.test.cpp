@@ -51,6 +51,15 @@ TEST(PerParticle, AVectorIsEachOnesOwn) {
   EXPECT_NE(message.find("holds 2 particles, but particle 2"), std::string::npos) << message;
 }
 
+TEST(PerParticle, ATensorIsEachOnesOwn) {
+  hmps::Matrix<float, 2> growth;
+  growth << 1, 2, 3, 4;
+  const std::vector<hmps::Matrix<float, 2>> tensors{hmps::Matrix<float, 2>::Identity(), growth};
+  EXPECT_EQ(OneParticle{1}(hmps::matrices(tensors)), (growth.cast<double>()));
+  const std::string message = hmps_test::message_of([&] { (void)OneParticle{2}(hmps::matrices(tensors)); });
+  EXPECT_NE(message.find("holds 2 particles, but particle 2"), std::string::npos) << message;
+}
+
 TEST(PerParticle, ValuesThatAreNotPositiveAreNamed) {
   std::vector<double> values{1, 2, 3};
   EXPECT_NO_THROW(require_positive(1000.0, 5, "density", "kg/m3"));

@@ -76,11 +76,15 @@ TYPED_TEST(Parameters, ArePerParticleAndPerBody) {
     stiffness[i] = static_cast<float>(i + 1);
     body[i] = static_cast<std::uint8_t>(i % 3);
   }
+  std::vector<hmps::Matrix<double, 2>> tensors(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int k = 0; k < 4; ++k) tensors[i](k % 2, k / 2) = static_cast<double>(4 * i) + k;
   const hmps::Matrix<hmps::Lanes<K>, 2> none{};
   for (std::size_t b = 0; b < bonds.block_count(); ++b) {
     const hmps::BlockOfParticles<K, 2> at(bonds, b, none, none);
     const auto own = at(hmps::scalars(stiffness)), of_body = at(hmps::scalars(table), hmps::scalars(body));
     const auto place = at(hmps::vectors(points));
+    const auto tensor = at(hmps::matrices(tensors));
     for (int l = 0; l < hmps::Lanes<K>::width; ++l) {
       const hmps::Index i = at.particle(l);
       if (i == hmps::Blocks<K, 2>::none) {
@@ -90,6 +94,7 @@ TYPED_TEST(Parameters, ArePerParticleAndPerBody) {
         EXPECT_EQ(own.lane[l], static_cast<K>(i + 1));
         EXPECT_EQ(of_body.lane[l], static_cast<K>(10 * (i % 3 + 1)));
         for (int c = 0; c < 2; ++c) EXPECT_EQ(place[c].lane[l], static_cast<K>(points[i][c]));
+        for (int k = 0; k < 4; ++k) EXPECT_EQ(tensor(k % 2, k / 2).lane[l], static_cast<K>(tensors[i](k % 2, k / 2)));
         EXPECT_NEAR(at.inverse_shape_trace().lane[l] * bonds.shape_trace(i), K(1),
                     4 * std::numeric_limits<K>::epsilon());
       }
@@ -110,6 +115,9 @@ TYPED_TEST(Parameters, OfAnotherSizeOrOfAnUnknownBodyAreRefused) {
   const std::vector<hmps::Vector<double, 2>> directions(34);
   text = error_of([&] { (void)at(hmps::vectors(directions)); });
   EXPECT_TRUE(has(text, "vectors holds 34 particles but 35 are needed")) << text;
+  const std::vector<hmps::Matrix<double, 2>> tensors(34);
+  text = error_of([&] { (void)at(hmps::matrices(tensors)); });
+  EXPECT_TRUE(has(text, "tensors holds 34 particles but 35 are needed")) << text;
   text = error_of([&] { (void)at(hmps::scalars(table), hmps::scalars(few)); });
   EXPECT_TRUE(has(text, "bodies holds 34 particles but 35 are needed")) << text;
   const hmps::Index i = at.particle(3);
