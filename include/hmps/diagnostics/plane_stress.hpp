@@ -68,11 +68,13 @@ template <class Law, int D>
     const double at = stress(s);
     if (at == 0 || std::abs(s - before) <= 1e-13) break;
     if (at < 0) {
-      low = s, at_low = at;
+      low = s;
+      at_low = at;
       if (stayed == 1) at_high /= 2;
       stayed = 1;
     } else {
-      high = s, at_high = at;
+      high = s;
+      at_high = at;
       if (stayed == -1) at_low /= 2;
       stayed = -1;
     }

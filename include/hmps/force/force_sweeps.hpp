@@ -60,8 +60,8 @@ class ForceSweeps {
            pressure_.bytes() + scales_.bytes();
   }
 
-  /// Sets to zero what the sweeps wrote: blocks that are not evaluated from now on are read with a weight of zero, which
-  /// does not remove a NaN.
+  /// Sets to zero what the sweeps wrote: blocks that are not evaluated from now on are read with a weight of zero,
+  /// which does not remove a NaN.
   void forget(const B& bonds) {
     coupling_ = decltype(coupling_)(bonds.slot_count());
     dilatation_ = decltype(dilatation_)(bonds.slot_count());

@@ -119,12 +119,12 @@ class FittedWalls {
 ///     internal_force(bonds, elastic(MooneyRivlin<>::from_moduli(bulk.law, mu)), mean_dilatation<2>(bulk.mean),
 ///                    artificial(scalars(E_hat)))
 ///
-/// The choice is derived, for three dimensions, not calibrated on bodies. A wall of thickness t with the twist kappa has the energy
-/// mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus artificial,
-/// equal to it for hexagonal layers in which each particle lies over a hollow of the next layer, with as much disorder
-/// as `fit_particles` leaves. The law keeps the part of the bulk modulus that makes the energies of the same layers
-/// right when they are bent in plane strain and as a strip, by least squares over the particles of walls; the mean
-/// dilatation has the rest. In bulk, and approximately where bending does not depend on it, the law keeps
+/// The choice is derived, for three dimensions, not calibrated on bodies. A wall of thickness t with the twist kappa
+/// has the energy mu kappa^2 t^3 / 6 per area, whatever its bulk modulus. E_hat makes the discrete energy, strain plus
+/// artificial, equal to it for hexagonal layers in which each particle lies over a hollow of the next layer, with as
+/// much disorder as `fit_particles` leaves. The law keeps the part of the bulk modulus that makes the energies of the
+/// same layers right when they are bent in plane strain and as a strip, by least squares over the particles of walls;
+/// the mean dilatation has the rest. In bulk, and approximately where bending does not depend on it, the law keeps
 ///
 ///     K_law = E / (1 - nu^2) - 4 mu / 3,       8 mu / 3 if incompressible
 ///

@@ -19,7 +19,7 @@ TEST(Pieces, AreWhatBondsJoinDirectlyOrThroughOthers) {
   joined.join(3, 1);
   joined.join(1, 5);
   joined.join(0, 6);
-  for (const Index i : {1, 3, 5}) EXPECT_EQ(joined.first_of(i), 1U);
+  for (const Index i : {1U, 3U, 5U}) EXPECT_EQ(joined.first_of(i), 1U);
   EXPECT_EQ(joined.first_of(6), 0U);
   EXPECT_EQ(joined.first_of(4), 4U);
   // In the order of the slots: 5, 6, 3, 2, 4, 1, 0, and an empty one.
