@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "../common/error.hpp"
 #include "../common/files.hpp"
 #include "../common/folder_lock.hpp"
 #include "../common/streams.hpp"
@@ -21,6 +22,7 @@
 #include "output/fingerprint.hpp"
 #include "output/fitted_file.hpp"
 #include "output/mechanisms.hpp"
+#include "output/model.hpp"
 #include "output/pictures.hpp"
 #include "output/progress.hpp"
 #include "run_case.hpp"
@@ -64,9 +66,17 @@ void compare_cases(const Options& options) {
   write_table2(out / "table2.md", results);
   write_mechanisms(out / "mechanisms.md", results);
   draw_fold(out / "fold.png", results);
-  std::filesystem::remove(out / "outlines.png");
+  for (const char* picture : {"outlines.png", "model.png"}) std::filesystem::remove(out / picture);
   if (results[0].summary && results[2].summary)
     draw_outlines(out / "outlines.png", {{{"X1", out / "X1" / "snapshots"}, {"Y1", out / "Y1" / "snapshots"}}});
+  // Model X comes first; it has one region more.
+  const auto first = std::find_if(results.begin(), results.end(), [](const auto& r) { return r.summary.has_value(); });
+  if (first == results.end()) return;
+  const std::string name = first->summary->case_name;
+  if (const auto at_rest = load_snapshot(out / name / "snapshots", 0))
+    (void)draw_model(out / "model.png", *at_rest,
+                     examples::message("Organs and control regions of case ", name, " at rest, spacing ",
+                                       1e3 * at_rest->spacing, " mm"));
 }
 
 /// The particles of all cases: those of the run that is resumed, or a new fit, which is kept in the output folder.

@@ -71,6 +71,18 @@ void check(Simulation<S>& simulation, const Scene& scene) {
                     simulation.executor());
 }
 
+/// Names the regions of the scene in `shot`, and of each particle its own. The rows of plates, which may be more than a
+/// byte counts, are one region.
+inline void note_regions(Snapshot& shot, const Scene& scene) {
+  std::size_t body = 0;
+  for (const Region& region : scene.regions)
+    if (region.kind != Region::door) shot.regions.push_back(region.name), ++body;
+  if (body < scene.regions.size()) shot.regions.emplace_back("H");
+  for (const int region : scene.region)
+    shot.region.push_back(region < 0 ? Snapshot::no_region
+                                     : static_cast<std::uint8_t>(std::min(static_cast<std::size_t>(region), body)));
+}
+
 template <class S>
 [[nodiscard]] Snapshot snapshot(Simulation<S>& simulation, const Scene& scene) {
   Snapshot shot;
@@ -82,6 +94,7 @@ template <class S>
     shot.organ.push_back(static_cast<std::uint8_t>(scene.organ[i]));
     shot.role.push_back(i >= scene.elastic_count ? Role::plate : scene.region[i] >= 0 ? Role::control : Role::free);
   }
+  note_regions(shot, scene);
   for (int o = 0; o < organ_count; ++o) shot.organs.emplace_back(name(static_cast<Organ>(o)));
   const auto centre = mean_position(x, scene.centre), tip = mean_position(x, scene.tip);
   shot.centre = {centre[0], centre[1], centre[2]};

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "output/panels.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace swallowing {
@@ -33,24 +36,56 @@ constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
 
 }  // namespace
 
-void draw_particles(Canvas& canvas, const Snapshot& snapshot, const View& view, const Window& window) {
-  struct Ball {
-    std::array<double, 3> at;
-    std::size_t particle;
+Window Window::holding(double width, double height, const std::array<double, 2>& lower,
+                       const std::array<double, 2>& upper) {
+  constexpr double margin = 0.004;
+  const double scale =
+      std::min(width / (upper[0] - lower[0] + 2 * margin), height / (upper[1] - lower[1] + 2 * margin));
+  const double across = (lower[0] + upper[0]) / 2, up = (lower[1] + upper[1]) / 2;
+  const double w = width / scale / 2, h = height / scale / 2;
+  return {across - w, up - h, across + w, up + h, scale};
+}
+
+View from_midsagittal_plane() {
+  return {.project =
+              [](const std::array<float, 3>& p) {
+                return std::array<double, 3>{p[0], p[2], p[1]};
+              },
+          .shows = [](const Snapshot& s, std::size_t i) { return s.positions[i][1] >= 0; }};
+}
+
+std::function<std::array<double, 3>(const std::array<float, 3>&)> seen_from(double left, double above,
+                                                                            const std::array<double, 3>& middle,
+                                                                            double in_front) {
+  using Vector = Eigen::Vector3d;
+  const double l = left * std::numbers::pi / 180, a = above * std::numbers::pi / 180;
+  const Vector towards(std::cos(a) * std::cos(l), -std::cos(a) * std::sin(l), std::sin(a));
+  const Vector across = Vector::UnitZ().cross(towards).normalized(), up = towards.cross(across);
+  const Vector at = Eigen::Map<const Vector>(middle.data());
+  return [=](const std::array<float, 3>& p) {
+    const Vector d = Eigen::Map<const Eigen::Vector3f>(p.data()).cast<double>() - at;
+    return std::array{d.dot(across), d.dot(up), std::max(0., in_front - d.dot(towards))};
   };
+}
+
+std::vector<Ball> shown_balls(const Snapshot& snapshot, const View& view) {
   std::vector<Ball> balls;
   for (std::size_t i = 0; i < snapshot.positions.size(); ++i)
     if (view.shows(snapshot, i)) balls.push_back({view.project(snapshot.positions[i]), i});
   std::stable_sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.at[2] > b.at[2]; });
+  return balls;
+}
+
+void draw_particles(Canvas& canvas, const Snapshot& snapshot, const View& view, const Window& window) {
   std::vector<Colour> colours;
   for (const std::string& organ : snapshot.organs) colours.push_back(colour_of(organ));
 
-  const double radius = 0.56 * snapshot.spacing * window.scale;
+  const double radius = Ball::radius * snapshot.spacing * window.scale;
   constexpr double fading = 0.022;  // m, over which the colours fade by a factor of e
-  for (const auto& [at, particle] : balls) {
+  for (const auto& [at, particle] : shown_balls(snapshot, view)) {
     const bool in_front = view.cuts && at[2] < snapshot.spacing;
     Colour fill = colours.at(snapshot.organ[particle]);
-    if (snapshot.role[particle] == Role::control) fill = control_colour.mixed(fill, 0.12);
+    if (snapshot.role[particle] == Role::control && view.darkens) fill = control_colour.mixed(fill, 0.12);
     if (snapshot.role[particle] == Role::plate) fill = plate_colour;
     const double fog = in_front ? 0 : (view.cuts ? 0.22 : 0) + 0.6 * (1 - std::exp(-at[2] / fading));
     const Colour rim = fill.mixed(ink, in_front ? 0.55 : 0.28).mixed(ground, fog);
@@ -62,12 +97,13 @@ void draw_particles(Canvas& canvas, const Snapshot& snapshot, const View& view, 
   }
 }
 
-double draw_legend(Canvas& canvas, double x, double y, const Snapshot& snapshot) {
+double draw_legend(Canvas& canvas, double x, double y, const Snapshot& snapshot, bool dark_organs) {
   // Only what is present, the organs in their own order.
   std::vector<bool> seen(snapshot.organs.size(), false);
   bool control = false, plate = false;
   for (std::size_t i = 0; i < snapshot.organ.size(); ++i) {
-    if (snapshot.role[i] == Role::free) seen[snapshot.organ[i]] = true;
+    if (snapshot.role[i] == Role::free || (dark_organs && snapshot.role[i] == Role::control))
+      seen[snapshot.organ[i]] = true;
     control = control || snapshot.role[i] == Role::control;
     plate = plate || snapshot.role[i] == Role::plate;
   }

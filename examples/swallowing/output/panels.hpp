@@ -27,6 +27,10 @@ struct Window {
   [[nodiscard]] static Window of_width(double width, double left, double bottom, double right, double top) {
     return {left, bottom, right, top, width / (right - left)};
   }
+  /// The window of `width` by `height` pixels that shows what lies between the corners, as large as fits beside a
+  /// margin of 4 mm, in its middle.
+  [[nodiscard]] static Window holding(double width, double height, const std::array<double, 2>& lower,
+                                      const std::array<double, 2>& upper);
   [[nodiscard]] double px(double across) const { return (across - left) * scale; }
   [[nodiscard]] double py(double up) const { return (top - up) * scale; }
   [[nodiscard]] double height() const { return (top - bottom) * scale; }
@@ -38,14 +42,36 @@ struct View {
   /// the distance behind it.
   std::function<std::array<double, 3>(const std::array<float, 3>&)> project;
   std::function<bool(const Snapshot&, std::size_t)> shows;
-  bool cuts = true;  ///< whether the plane cuts the body: then the particles at the plane stand out
+  bool cuts = true;     ///< whether the plane cuts the body: then the particles at the plane stand out
+  bool darkens = true;  ///< whether control regions are dark; otherwise they have the colour of their organ
 };
+
+/// The right half, y >= 0, seen from the midsagittal plane. The viewer stands on the left: x, posterior, runs to the
+/// right.
+[[nodiscard]] View from_midsagittal_plane();
+
+/// The projection of a `View` towards `middle` (m) from behind, turned to the left and above by angles in degrees.
+/// Particles do not fade until they are `in_front` metres in front of the middle.
+[[nodiscard]] std::function<std::array<double, 3>(const std::array<float, 3>&)> seen_from(
+    double left, double above, const std::array<double, 3>& middle, double in_front);
+
+/// A particle in the plane of a picture, as `View::project` places it.
+struct Ball {
+  std::array<double, 3> at;
+  std::size_t particle;
+  /// In spacings: balls of neighbours overlap a little, so that nothing shows between them.
+  static constexpr double radius = 0.56;
+};
+
+/// The particles that the view shows, those furthest behind the plane of the picture first.
+[[nodiscard]] std::vector<Ball> shown_balls(const Snapshot& snapshot, const View& view);
 
 /// Draws the particles as balls, those furthest behind the plane of the picture first.
 void draw_particles(examples::Canvas& canvas, const Snapshot& snapshot, const View& view, const Window& window);
 
-/// Lists, from `x`, `y` downward, the colours of the organs and roles that the snapshot holds. Returns the y below.
-double draw_legend(examples::Canvas& canvas, double x, double y, const Snapshot& snapshot);
+/// Lists, from `x`, `y` downward, the colours of the organs and roles that the snapshot holds. Of organs all of whose
+/// particles are dark, the colours are listed only with `dark_organs`. Returns the y below.
+double draw_legend(examples::Canvas& canvas, double x, double y, const Snapshot& snapshot, bool dark_organs = false);
 
 /// A bar of 20 mm in the lower left corner of a panel.
 void draw_scale(examples::Canvas& canvas, const Window& window);

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "output/pictures.hpp"
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -37,16 +34,6 @@ template <std::size_t N>
   char text[64];
   std::snprintf(text, sizeof(text), pattern, value);
   return text;
-}
-
-/// The right half, y >= 0, seen from the midsagittal plane. The viewer stands on the left: x, posterior, runs to the
-/// right.
-[[nodiscard]] View from_midsagittal_plane() {
-  return {.project =
-              [](const std::array<float, 3>& p) {
-                return std::array<double, 3>{p[0], p[2], p[1]};
-              },
-          .shows = [](const Snapshot& s, std::size_t i) { return s.positions[i][1] >= 0; }};
 }
 
 /// The line from the centre to the tip of the epiglottis, and the horizontal through the centre.
@@ -125,18 +112,10 @@ void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, c
 }
 
 void draw_rear(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
-  using Vector = Eigen::Vector3d;
   constexpr std::array times{1.383, 1.583, 1.633, 1.677};
-  constexpr double left = 30 * std::numbers::pi / 180, above = 25 * std::numbers::pi / 180;
-  const Vector towards(std::cos(above) * std::cos(left), -std::cos(above) * std::sin(left), std::sin(above));
-  const Vector across = Vector::UnitZ().cross(towards).normalized(), up = towards.cross(across);
-  const Vector middle(-5e-3, 0, 45e-3);                      // m, about where the leaf turns
+  constexpr std::array middle{-5e-3, 0., 45e-3};             // m, about where the leaf turns
   constexpr double removed_behind = 2e-3, in_front = 12e-3;  // m
-  const View view{.project =
-                      [=](const std::array<float, 3>& p) {
-                        const Vector d = Eigen::Map<const Eigen::Vector3f>(p.data()).cast<double>() - middle;
-                        return std::array{d.dot(across), d.dot(up), std::max(0., in_front - d.dot(towards))};
-                      },
+  const View view{.project = seen_from(30, 25, middle, in_front),
                   .shows =
                       [](const Snapshot& s, std::size_t i) {
                         const std::string& organ = s.organ_of(i);

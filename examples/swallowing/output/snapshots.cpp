@@ -27,10 +27,12 @@ void Snapshots::add(double time, const Snapshot& snapshot) const {
   Checkpoint box;  // used as a container: either complete or absent, with a checksum
   box.time = snapshot.time;
   for (const std::string& organ : snapshot.organs) box.settings.emplace_back("organ", organ);
+  for (const std::string& region : snapshot.regions) box.settings.emplace_back("region", region);
   box.set("spacing", snapshot.spacing);
   box.set("positions", snapshot.positions);
   box.set("organ", snapshot.organ);
   box.set("role", snapshot.role);
+  box.set("region", snapshot.region);
   box.set("centre", snapshot.centre);
   box.set("tip", snapshot.tip);
   box.set("tip_angle", snapshot.tip_angle);
@@ -42,11 +44,12 @@ std::optional<Snapshot> load_snapshot(const std::filesystem::path& folder, doubl
   if (!box) return std::nullopt;
   Snapshot s;
   s.time = box->time;
-  for (const auto& [key, organ] : box->settings) s.organs.push_back(organ);
+  for (const auto& [key, name] : box->settings) (key == "region" ? s.regions : s.organs).push_back(name);
   s.spacing = box->value<double>("spacing");
   s.positions = box->get<std::array<float, 3>>("positions");
   s.organ = box->get<std::uint8_t>("organ");
   s.role = box->get<Role>("role");
+  s.region = box->get<std::uint8_t>("region");
   box->get("centre", s.centre);
   box->get("tip", s.tip);
   s.tip_angle = box->value<double>("tip_angle");

@@ -23,21 +23,26 @@ enum class Role : std::uint8_t {
   plate     ///< grey, region H, which acts by contact only
 };
 
-/// Everything that a picture needs of one moment. The three arrays of particles have equal size.
+/// Everything that a picture needs of one moment. The four arrays of particles have equal size.
 struct Snapshot {
   double time = 0;                              ///< s
   double spacing = 0;                           ///< m
   std::vector<std::array<float, 3>> positions;  ///< m, x posterior, z superior, y = 0 the midsagittal plane
   std::vector<std::uint8_t> organ;              ///< index into `organs`
   std::vector<Role> role;
+  std::vector<std::uint8_t> region;       ///< index into `regions`, `no_region` if it belongs to none
   std::vector<std::string> organs;        ///< names: "tongue", "epiglottis", …
+  std::vector<std::string> regions;       ///< names: "A", "B0", …; all plates of region H are one
   std::array<double, 3> centre{}, tip{};  ///< of the epiglottis, m
   double tip_angle = 0;                   ///< degrees above the horizontal
+
+  static constexpr std::uint8_t no_region = 255;
 
   [[nodiscard]] const std::string& organ_of(std::size_t i) const { return organs.at(organ[i]); }
 };
 
 /// The snapshot that a case kept in `folder` at `time`, one of `snapshot_times`; nothing if that time was not reached.
+/// Throws `InputError` if the file is damaged or was written by another version of this program.
 [[nodiscard]] std::optional<Snapshot> load_snapshot(const std::filesystem::path& folder, double time);
 
 /// The moments of a case that are kept for its pictures, as small files in `folder`, so that a run that was stopped and

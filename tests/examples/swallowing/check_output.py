@@ -19,7 +19,8 @@ def expect(condition, what):
         sys.exit(f"{folder}: {what}")
 
 
-for picture in (folder / "sheet.png", folder / "rear.png", folder / "sections.png", out / "fold.png"):
+for picture in (folder / "sheet.png", folder / "rear.png", folder / "sections.png", out / "fold.png",
+                out / "model.png"):
     expect(picture.read_bytes().startswith(PNG), f"{picture.name} is no PNG")
 expect(f"{case}" in (out / "table2.md").read_text(), "table2.md does not name the case")
 

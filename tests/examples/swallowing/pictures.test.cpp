@@ -4,10 +4,23 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
+#include "output/checkpoint.hpp"
 #include "output/comparison.hpp"
+#include "output/labels.hpp"
+#include "output/model.hpp"
+#include "output/observe.hpp"
+#include "output/panels.hpp"
+#include "scene/build_scene.hpp"
 
 namespace pictures_test {
 
@@ -22,6 +35,7 @@ Snapshot block(double time) {
   s.time = time;
   s.spacing = 2e-3;
   s.organs = {"tongue", "epiglottis"};
+  s.regions = {"A", "H"};
   for (int i = 0; i < 20; ++i)
     for (int j = -5; j < 5; ++j)
       for (int k = 0; k < 30; ++k) {
@@ -29,6 +43,7 @@ Snapshot block(double time) {
             {2e-3f * static_cast<float>(i), 2e-3f * (static_cast<float>(j) + 0.5f), 2e-3f * static_cast<float>(k)});
         s.organ.push_back(k > 20 ? 1 : 0);
         s.role.push_back(k == 0 ? Role::control : i == 19 ? Role::plate : Role::free);
+        s.region.push_back(k == 0 ? 0 : i == 19 ? 1 : Snapshot::no_region);
       }
   s.centre = {0.01, 0, 0.045};
   s.tip = {0.02, 0, 0.055};
@@ -42,14 +57,17 @@ struct Png {
   Png(const Png&) = delete;
   Png& operator=(const Png&) = delete;
   ~Png() { cairo_surface_destroy(surface); }
-  /// The share of pixels that `wanted(red, green, blue)` holds for.
+  /// The share of pixels that `wanted(red, green, blue)` holds for, of the whole picture or of a part.
   template <class Wanted>
   [[nodiscard]] double share(Wanted&& wanted) const {
-    const int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
+    return share(wanted, 0, 0, cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+  }
+  template <class Wanted>
+  [[nodiscard]] double share(Wanted&& wanted, int left, int top, int width, int height) const {
     const unsigned char* data = cairo_image_surface_get_data(surface);
     int count = 0;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
+    for (int y = top; y < top + height; ++y)
+      for (int x = left; x < left + width; ++x) {
         const unsigned char* p = data + y * cairo_image_surface_get_stride(surface) + 4 * x;
         count += wanted(int{p[2]}, int{p[1]}, int{p[0]});
       }
@@ -74,10 +92,31 @@ TEST(Pictures, ASnapshotComesBackAsItWas) {
   EXPECT_EQ(read->positions, s.positions);
   EXPECT_EQ(read->organ, s.organ);
   EXPECT_EQ(read->role, s.role);
+  EXPECT_EQ(read->region, s.region);
   EXPECT_EQ(read->organs, s.organs);
+  EXPECT_EQ(read->regions, s.regions);
   EXPECT_EQ(read->centre, s.centre);
   EXPECT_EQ(read->tip, s.tip);
   EXPECT_EQ(read->tip_angle, 45);
+}
+
+TEST(Pictures, ASnapshotWithoutRegionsIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "snapshot_0.000s.bin";
+  const Snapshots snapshots(folder.path());
+  snapshots.add(0, block(0));
+  // As it was written before snapshots knew the regions.
+  const auto whole = swallowing::Checkpoint::load(file);
+  swallowing::Checkpoint old;
+  old.settings = {{"organ", "tongue"}};
+  old.set("spacing", whole->value<double>("spacing"));
+  old.set("positions", whole->get<std::array<float, 3>>("positions"));
+  old.set("organ", whole->get<std::uint8_t>("organ"));
+  old.set("role", whole->get<Role>("role"));
+  for (const char* name : {"centre", "tip", "tip_angle"}) old.set(name, whole->get<double>(name));
+  old.save(file);
+  const std::string refusal = hmps_test::message_of([&] { (void)snapshots.load(0); });
+  EXPECT_NE(refusal.find("does not hold region; it was written by another version"), std::string::npos) << refusal;
 }
 
 TEST(Pictures, AResumedRunKeepsWhatLiesBeforeTheCheckpoint) {
@@ -122,6 +161,111 @@ TEST(Pictures, OnlyTheRightHalfIsDrawn) {
   EXPECT_LT(Png(folder.path() / "sheet.png").share(yellow), 1e-3);
 }
 
+/// The letters that are seen from the midsagittal plane, each with its place in mm.
+std::vector<std::pair<std::string, std::array<double, 2>>> seen(const Snapshot& s) {
+  const auto window = swallowing::Window::of_width(400, -0.004, -0.004, 0.042, 0.064);
+  std::vector<std::pair<std::string, std::array<double, 2>>> places;
+  for (const auto& label : swallowing::visible_regions(s, swallowing::from_midsagittal_plane(), window))
+    places.push_back({label.letter, {1e3 * label.x / window.scale - 4, 64 - 1e3 * label.y / window.scale}});
+  return places;
+}
+
+TEST(Pictures, RegionsAreLabelledWhereTheyAreSeen) {
+  Snapshot s = block(0);
+  const auto places = seen(s);
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0].first, "A");  // the layer below, 0 to 36 mm without the plates' 38
+  EXPECT_NEAR(places[0].second[0], 19, 2);
+  EXPECT_NEAR(places[0].second[1], 0, 1);
+  EXPECT_EQ(places[1].first, "H");  // the layer behind, 2 to 58 mm
+  EXPECT_NEAR(places[1].second[0], 38, 1);
+  EXPECT_NEAR(places[1].second[1], 30, 2);
+  // The particles of the plane hide a region behind them.
+  for (std::size_t i = 0; i < s.positions.size(); ++i)
+    if (s.positions[i][1] < 2e-3f) s.region[i] = Snapshot::no_region;
+  EXPECT_TRUE(seen(s).empty());
+}
+
+TEST(Pictures, ARegionInTwoPartsHasTwoLabels) {
+  Snapshot s = block(0);
+  s.regions = {"D left", "H"};
+  for (std::size_t i = 0; i < s.positions.size(); ++i)
+    if (s.region[i] == 0 && std::abs(s.positions[i][0] - 10e-3f) < 3e-3f) s.region[i] = Snapshot::no_region;
+  const auto places = seen(s);
+  ASSERT_EQ(places.size(), 3u);
+  EXPECT_EQ(places[0].first, "D") << "without the side";
+  EXPECT_EQ(places[1].first, "D");
+  EXPECT_LT(places[0].second[0], 6);
+  EXPECT_GT(places[1].second[0], 14);
+}
+
+/// The body at rest.
+Snapshot at_rest(const swallowing::Scene& scene) {
+  Snapshot s;
+  s.spacing = scene.spacing;
+  for (int o = 0; o < swallowing::organ_count; ++o) s.organs.emplace_back(name(static_cast<swallowing::Organ>(o)));
+  for (std::size_t i = 0; i < scene.reference.size(); ++i) {
+    const Eigen::Vector3f x = scene.reference[i].cast<float>();
+    s.positions.push_back({x[0], x[1], x[2]});
+    s.organ.push_back(static_cast<std::uint8_t>(scene.organ[i]));
+    s.role.push_back(i >= scene.elastic_count ? Role::plate : scene.region[i] >= 0 ? Role::control : Role::free);
+  }
+  note_regions(s, scene);
+  return s;
+}
+
+TEST(Pictures, TheModelShowsEveryOrganAndEveryRegion) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "model.png";
+  const auto scene = swallowing::make_scene({.spacing = 2.4e-3, .data = SWALLOWING_DATA});
+  const Snapshot s = at_rest(scene);
+  const std::set<std::string> letters = swallowing::draw_model(path, s, "the model");
+  std::set<std::string> wanted{"H"};
+  for (const auto& region : swallowing::body_regions(swallowing::Model::X))
+    wanted.insert(swallowing::letter_of(region.name));
+  EXPECT_EQ(letters, wanted);
+
+  // The panels in the order of their letters; of the colours, those of balls at the front.
+  const Png model(path);
+  const auto in_panel = [&](int panel, auto&& wanted_colour) {
+    return model.share(wanted_colour, 18 + 448 * (panel % 4), 106 + 618 * (panel / 4), 430, 560);
+  };
+  const auto like = [](int R, int G, int B) {
+    return [=](int r, int g, int b) { return std::max({std::abs(r - R), std::abs(g - G), std::abs(b - B)}) < 12; };
+  };
+  const auto tongue = like(0xd9, 0x58, 0x4f), palate = like(0xe8, 0x91, 0x5b), hard = like(0xb9, 0xae, 0x98),
+             leaf = like(0xf5, 0xc2, 0x11), vallecula = like(0x3f, 0xa7, 0x96), larynx = like(0x55, 0x96, 0xd6),
+             pharynx = like(0xe3, 0xa3, 0xb4), esophagus = like(0x9b, 0x7f, 0xc9), strip = like(0x8a, 0x81, 0x72);
+  for (const auto& colour : {tongue, palate, hard, leaf, vallecula, larynx, pharynx, esophagus, strip})
+    EXPECT_GT(in_panel(0, colour), 1e-3);
+  const std::array alone{tongue, tongue, palate, leaf, leaf, pharynx};
+  for (std::size_t k = 0; k < alone.size(); ++k) EXPECT_GT(in_panel(static_cast<int>(k) + 1, alone[k]), 1e-3) << k;
+  for (const int panel : {1, 2, 3}) EXPECT_LT(in_panel(panel, larynx), 1e-5) << panel;
+
+  // Regions are dark, but not among all organs.
+  Snapshot bright = s;
+  for (Role& role : bright.role)
+    if (role == Role::control) role = Role::free;
+  (void)swallowing::draw_model(path, bright, "the same without dark regions");
+  const Png without(path);
+  constexpr auto dim = [](int r, int g, int b) { return r < 125 && g < 125 && b < 125; };
+  const auto darkened = [&](int panel) {
+    const int left = 18 + 448 * (panel % 4), top = 106 + 618 * (panel / 4);
+    return model.share(dim, left, top, 430, 560) - without.share(dim, left, top, 430, 560);
+  };
+  EXPECT_EQ(darkened(0), 0);
+  for (int panel = 1; panel <= 6; ++panel) EXPECT_GT(darkened(panel), 2e-3) << panel;
+}
+
+TEST(Pictures, TheModelOfYLacksF) {
+  const TemporaryFolder folder;
+  const auto scene =
+      swallowing::make_scene({.spacing = 2.4e-3, .model = swallowing::Model::Y, .data = SWALLOWING_DATA});
+  const auto letters = swallowing::draw_model(folder.path() / "model.png", at_rest(scene), "model Y");
+  EXPECT_FALSE(letters.contains("F"));
+  EXPECT_TRUE(letters.contains("E") && letters.contains("G") && letters.contains("H"));
+}
+
 /// A sheet of one organ across the midsagittal plane.
 Snapshot sheet_of(const std::string& organ, float x, float height) {
   Snapshot s;
@@ -132,6 +276,7 @@ Snapshot sheet_of(const std::string& organ, float x, float height) {
       s.positions.push_back({x, 2e-3f * static_cast<float>(j), height + 2e-3f * static_cast<float>(k)});
       s.organ.push_back(0);
       s.role.push_back(Role::free);
+      s.region.push_back(Snapshot::no_region);
     }
   return s;
 }
