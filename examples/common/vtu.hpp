@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -44,9 +45,11 @@ template <class T, int N>
   return Field::of(std::move(name), N, "Float32", values);
 }
 
-/// A cloud of particles as the bytes of a VTK file, see `hmps::vtu_text`.
-[[nodiscard]] inline std::string vtu(const Field& positions, std::span<const Field> fields, double time) {
-  return hmps::vtu_text(positions, std::vector<hmps::VtkField>(fields.begin(), fields.end()), {.time = time});
+/// A cloud of particles, or a surface if there are triangles, as the bytes of a VTK file, see `hmps::vtu_text`.
+[[nodiscard]] inline std::string vtu(const Field& positions, std::span<const Field> fields, double time,
+                                     std::span<const std::array<hmps::Index, 3>> triangles = {}) {
+  return hmps::vtu_text(positions, std::vector<hmps::VtkField>(fields.begin(), fields.end()),
+                        {.time = time, .triangles = triangles});
 }
 
 /// The text of a ParaView collection (.pvd) that lists `frames`: time in s, file name.

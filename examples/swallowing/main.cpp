@@ -102,12 +102,15 @@ bool run_cases(const Options& options) {
   std::optional<FittedOrgans> fitted;
   if (options.fitted) fitted = fitted_organs(options);
 
+  SharedOrgans surfaces;
   std::atomic<std::size_t> next = 0;
   std::mutex reporting;
   bool all_ended = true;
   const auto work = [&] {
     for (std::size_t k = next++; k < options.cases.size(); k = next++) {
-      const Summary summary = run_case(one, find_case(options.cases[k]), fitted ? &*fitted : nullptr);
+      const Case& chosen = find_case(options.cases[k]);
+      const Summary summary =
+          run_case(one, chosen, fitted ? &*fitted : nullptr, options.surfaces ? &surfaces : nullptr);
       const std::lock_guard lock(reporting);
       report(summary);
       all_ended = all_ended && !summary.failure;

@@ -39,7 +39,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   Options options;
   std::vector<std::string> chosen;
   std::string contact = "smooth", particles = "lattice", scalar, quality(default_quality.name);
-  bool without_h = false, no_frames = false;
+  bool without_h = false, no_frames = false, no_surfaces = false;
   CLI::App app(
       "Simulates a human swallow with the Hamiltonian MPS method: cases X1, X3, Y1 and Y3 of the paper's\n"
       "Table 1. Writes for each case a summary, a time series, pictures and frames for ParaView, and for all\n"
@@ -93,6 +93,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
                "continue from the last checkpoints in the output folder; results are identical to the bit. The motion "
                "of --data may differ from that of the checkpoint in what is to come");
   app.add_flag("--no-frames", no_frames, "write no frames for ParaView");
+  app.add_flag("--no-surfaces", no_surfaces, "draw no smooth surfaces of the organs, which takes some seconds");
   number(app.add_option("--frame-interval", options.frame_interval, "time between frames in s (default: 0.01)"), "S")
       ->check(within(1e-5, 10, "the time between frames is in seconds and must lie between 1e-5 and 10"));
   app.add_option("--data", options.data, "folder with the motion tracks (default: those of the example)")
@@ -165,6 +166,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv, std::ost
   if (options.paper_contact && !options.penalty && !options.penalty_ratio) options.penalty_ratio = 0.3;
   options.constrictors = !without_h;
   options.frames = !no_frames;
+  options.surfaces = !no_surfaces;
   if (options.threads == 0) options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return options;
 }

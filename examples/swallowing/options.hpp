@@ -48,6 +48,7 @@ struct Options {
   bool constrictors = true;      ///< false: region H is left out
   bool bar = true;               ///< on a terminal, show progress as a bar in one line
   bool frames = true;            ///< write frames for ParaView
+  bool surfaces = true;          ///< draw the surfaces of the organs, also in frames if there are any
   double frame_interval = 0.01;  ///< in s
   std::string out = "results";   ///< the output folder
   std::string data;              ///< folder of the motion tracks; empty: those of the example

@@ -44,8 +44,9 @@ constexpr double volume_time = 1.667;         // s, when the paper states det F
 template <class S>
 class Run {
  public:
-  Run(const Options& options, const Case& chosen, const FittedOrgans* fitted)
+  Run(const Options& options, const Case& chosen, const FittedOrgans* fitted, SharedOrgans* surfaces)
       : options_(options),
+        surfaces_(surfaces),
         chosen_(chosen),
         friction_(options.friction.value_or(chosen.friction)),
         folder_(prepared(std::filesystem::path(options.out) / chosen.name)),
@@ -86,10 +87,11 @@ class Run {
 
   Summary operator()() {
     const auto before = options_.resume ? last_checkpoint() : std::nullopt;
-    History history(folder_, contacts_header(scene_), options_.frames, before);
+    History history(folder_, contacts_header(scene_), options_.frames, options_.frames && surfaces_, before);
     if (before) resume(*before);
     for (const Sample& sample : history.series.samples()) measure(sample);
 
+    if (history.surfaces) (void)organs();  // not while the steps are timed
     accounted_ = std::chrono::steady_clock::now();
     const auto first_step = simulation_.steps();
     Every sample(sample_interval), frame(options_.frame_interval), keep(checkpoint_interval), limit(limit_interval);
@@ -115,7 +117,7 @@ class Run {
           history.series.add(now);
           history.contacts.add(observe_contacts(simulation_, scene_));
           measure(now);
-          snap(history.snapshots, time);
+          snap(history, time);
         }
         if (history.frames && frame.due(time, dt)) add_frame(*history.frames, simulation_, scene_);
         if (limit.due(time, dt)) watch.refresh(time);
@@ -134,9 +136,7 @@ class Run {
     progress.finish(simulation_.time(), steps, smallest_j);
     account();
     finish();
-    draw_sheet(folder_ / "sheet.png", history.snapshots, title());
-    draw_rear(folder_ / "rear.png", history.snapshots, title() + ": the leaf from behind and the left");
-    draw_sections(folder_ / "sections.png", history.snapshots, title() + ": sections of the pharynx from above");
+    draw(history.snapshots);
     return summary_;
   }
 
@@ -162,9 +162,20 @@ class Run {
     examples::prepare_folder(folder);
     return folder;
   }
-  void snap(const Snapshots& snapshots, double time) {
-    for (const double moment : snapshot_times)
-      if (std::abs(time - moment) < sample_interval / 2) snapshots.add(moment, snapshot(simulation_, scene_));
+  void snap(History& history, double time) {
+    for (const double moment : snapshot_times) {
+      if (std::abs(time - moment) >= sample_interval / 2) continue;
+      const Snapshot shot = snapshot(simulation_, scene_);
+      history.snapshots.add(moment, shot);
+      if (history.surfaces) add_surfaces(*history.surfaces, organs(), shot);
+    }
+  }
+  [[nodiscard]] const CarriedOrgans& organs() { return surfaces_->of(scene_, options_.threads); }
+  void draw(const Snapshots& snapshots) {
+    draw_sheet(folder_ / "sheet.png", snapshots, title());
+    draw_rear(folder_ / "rear.png", snapshots, title() + ": the leaf from behind and the left");
+    draw_sections(folder_ / "sections.png", snapshots, title() + ": sections of the pharynx from above");
+    if (surfaces_) draw_surfaces(folder_ / "surfaces.png", snapshots, organs(), title() + ": surfaces");
   }
   [[nodiscard]] std::string title() const {
     return examples::message("Case ", chosen_.name, ": model ", chosen_.model == Model::X ? "X" : "Y", ", friction ",
@@ -256,6 +267,7 @@ class Run {
   }
 
   Options options_;
+  SharedOrgans* surfaces_;
   Case chosen_;
   double friction_;
   std::filesystem::path folder_;
@@ -277,9 +289,9 @@ class Run {
 
 }  // namespace
 
-Summary run_case(const Options& options, const Case& chosen, const FittedOrgans* fitted) {
-  if (options.single_precision) return Run<float>(options, chosen, fitted)();
-  return Run<double>(options, chosen, fitted)();
+Summary run_case(const Options& options, const Case& chosen, const FittedOrgans* fitted, SharedOrgans* surfaces) {
+  if (options.single_precision) return Run<float>(options, chosen, fitted, surfaces)();
+  return Run<double>(options, chosen, fitted, surfaces)();
 }
 
 }  // namespace swallowing

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "output/carried_organs.hpp"
 #include "output/frames.hpp"
 #include "output/measure.hpp"
 #include "output/series.hpp"
@@ -126,6 +127,13 @@ void add_frame(Frames& frames, Simulation<S>& simulation, const Scene& scene) {
                                     Field::of("J", 1, "Float32", jacobian), Field::of("organ", 1, "Int32", organ),
                                     Field::of("region", 1, "Int32", region)};
   frames.add(simulation.time(), Field::of("position", 3, "Float32", position), fields);
+}
+
+/// Adds the surfaces of the organs as the particles of `shot` carry them.
+inline void add_surfaces(Frames& frames, const CarriedOrgans& organs, const Snapshot& shot) {
+  const auto vertices = organs.vertices(shot.positions);
+  const std::array fields{examples::whole_numbers("organ", organs.organ())};
+  frames.add(shot.time, examples::numbers("position", hmps::vectors(vertices)), fields, organs.triangles());
 }
 
 }  // namespace swallowing

@@ -18,9 +18,10 @@ using examples::Canvas;
 using examples::Colour;
 
 constexpr Colour control_colour = Colour::hex(0x20232b);
-constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
 
-[[nodiscard]] Colour colour_of(const std::string& organ) {
+}  // namespace
+
+Colour colour_of(const std::string& organ) {
   static const std::pair<const char*, Colour> colours[] = {
       {"epiglottis", Colour::hex(0xf5c211)}, {"tongue", Colour::hex(0xd9584f)},    {"hard", Colour::hex(0xb9ae98)},
       {"palate", Colour::hex(0xe8915b)},     {"vallec", Colour::hex(0x3fa796)},    {"aryt", Colour::hex(0x2f6fb5)},
@@ -33,8 +34,6 @@ constexpr Colour plate_colour = Colour::hex(0x9aa1ab);
     if (name.find(part) != std::string::npos) return colour;
   return Colour::hex(0x8fae6a);
 }
-
-}  // namespace
 
 Window Window::holding(double width, double height, const std::array<double, 2>& lower,
                        const std::array<double, 2>& upper) {

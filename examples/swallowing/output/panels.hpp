@@ -18,6 +18,10 @@ inline constexpr examples::Colour ink = examples::Colour::hex(0x1d2430);
 inline constexpr examples::Colour faint = examples::Colour::hex(0x6b7480);
 inline constexpr examples::Colour ground = examples::Colour::hex(0xf4f6f9);
 inline constexpr examples::Colour mark = examples::Colour::hex(0xc01c28);
+inline constexpr examples::Colour plate_colour = examples::Colour::hex(0x9aa1ab);
+
+/// The colour of the organ of that name.
+[[nodiscard]] examples::Colour colour_of(const std::string& organ);
 
 /// The part of the plane of a picture that a panel shows, in m, and its scale in pixels per m.
 struct Window {

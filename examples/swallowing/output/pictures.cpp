@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "../../common/error.hpp"
 #include "output/lumen.hpp"
 #include "output/panels.hpp"
+#include "output/shaded.hpp"
 
 namespace swallowing {
 
@@ -84,7 +86,16 @@ void draw_sheet_legend(Canvas& canvas, double x, double y, const Snapshot& s) {
 
 }  // namespace
 
-void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
+namespace {
+
+/// Draws a moment into a panel.
+using DrawMoment = std::function<void(Canvas&, const Snapshot&, const View&, const Window&)>;
+
+/// The moments of Figs 13, 15 and 16, seen from the midsagittal plane; then `besides(canvas, x, y, any)`, where `any`
+/// is one of the moments and `x`, `y` the place to the right of the last.
+void draw_from_midsagittal_plane(const std::filesystem::path& path, const Snapshots& snapshots,
+                                 const std::string& title, const DrawMoment& draw,
+                                 const std::function<void(Canvas&, double, double, const Snapshot&)>& besides) {
   constexpr std::array times{0., 0.5, 1.383, 1.583, 1.667, 1.677, 1.683, 1.7, 2.05};
   const Moments all = moments(snapshots, times);
   const View view = from_midsagittal_plane();
@@ -96,8 +107,7 @@ void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, c
     if (all[i]) {
       panel.value = format("%+.1f°", all[i]->tip_angle);
       panel.draw = [&, i](Canvas& canvas) {
-        draw_particles(canvas, *all[i], view, window);
-        draw_angle(canvas, *all[i], window);
+        draw(canvas, *all[i], view, window);
         if (i > 0) return;
         draw_scale(canvas, window);
         canvas.text_with_halo(16, grid.height - 54, "← anterior", 15, faint, ground);
@@ -107,8 +117,37 @@ void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, c
   }
   grid.draw(path, [&](Canvas& canvas) {
     const auto [x, y] = grid.corner(times.size());
-    if (const Snapshot* s = any_of(all)) draw_sheet_legend(canvas, x + 30, y + 76, *s);
+    if (const Snapshot* s = any_of(all)) besides(canvas, x + 30, y + 76, *s);
   });
+}
+
+}  // namespace
+
+void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {
+  const auto draw = [](Canvas& canvas, const Snapshot& s, const View& view, const Window& window) {
+    draw_particles(canvas, s, view, window);
+    draw_angle(canvas, s, window);
+  };
+  draw_from_midsagittal_plane(path, snapshots, title, draw, draw_sheet_legend);
+}
+
+void draw_surfaces(const std::filesystem::path& path, const Snapshots& snapshots, const CarriedOrgans& organs,
+                   const std::string& title) {
+  const auto draw = [&](Canvas& canvas, const Snapshot& s, const View& view, const Window& window) {
+    draw_shaded(canvas, organs, s, view, window);
+  };
+  const auto besides = [](Canvas& canvas, double x, double y, Snapshot s) {
+    // The surfaces do not tell control regions apart, and hide the plates.
+    std::erase(s.role, Role::plate);
+    s.organ.resize(s.role.size());
+    std::replace(s.role.begin(), s.role.end(), Role::control, Role::free);
+    y = draw_legend(canvas, x, y, s) + 12;
+    canvas.text(x, y, "Right half: the drawn surfaces of the organs,", 15, faint);
+    canvas.text(x, y + 20, "cut at the midsagittal plane, as the particles", 15, faint);
+    canvas.text(x, y + 40, "carry them. Angle: centre to tip of the", 15, faint);
+    canvas.text(x, y + 60, "epiglottis above the horizontal.", 15, faint);
+  };
+  draw_from_midsagittal_plane(path, snapshots, title, draw, besides);
 }
 
 void draw_rear(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "output/carried_organs.hpp"
 #include "output/snapshots.hpp"
 
 /// The pictures of a case, from its snapshots, beside those of the paper. A `title` is written above each.
@@ -12,6 +13,10 @@ namespace swallowing {
 
 /// The right half of the particles, seen from the midsagittal plane, as in the paper's Figs 13, 15 and 16.
 void draw_sheet(const std::filesystem::path& path, const Snapshots& snapshots, const std::string& title);
+
+/// The same moments, with the smooth surfaces of the organs in place of the particles.
+void draw_surfaces(const std::filesystem::path& path, const Snapshots& snapshots, const CarriedOrgans& organs,
+                   const std::string& title);
 
 /// The leaf from behind and from the left, without the posterior and the left wall of the pharynx, as in the paper's
 /// Fig. 14.

@@ -47,9 +47,13 @@ with tempfile.TemporaryDirectory() as name:
 
     run = ["--case", "X1", "--until", "0.002", "--no-frames", "--out", folder / "run"]
     subprocess.run([program, *map(str, run)], check=True, capture_output=True, timeout=300)
-    short = ["--case", "X1", "--until", "0.0005", "--no-frames"]
+    if not (folder / "run/X1/surfaces.png").exists() or (folder / "run/X1/surfaces.pvd").exists():
+        sys.exit("without frames, the surfaces should be drawn but not written for ParaView")
+    short = ["--case", "X1", "--until", "0.0005", "--no-frames", "--no-surfaces"]
     for number, stream in enumerate((">/dev/full", ">&-", "2>&-")):
         lost([*short, "--out", folder / f"lost{number}"], stream)
+    if (folder / "lost0/X1/surfaces.png").exists():
+        sys.exit("surfaces were drawn in spite of --no-surfaces")
     series = [(folder / f"lost{number}/X1/series.csv").read_bytes() for number in range(3)]
     if len(set(series)) > 1 or not series[0].startswith(b"time,"):
         sys.exit("what was to go to a closed stream went into series.csv")
@@ -57,14 +61,16 @@ with tempfile.TemporaryDirectory() as name:
 
     # The table holds no case of other settings.
     table = folder / "run/table2.md"
-    other = ["--case", "Y3", "--until", "0.0005", "--no-frames", "--out", folder / "run", "--friction", "0.2"]
+    other = ["--case", "Y3", "--until", "0.0005", "--no-frames", "--no-surfaces", "--out", folder / "run",
+             "--friction", "0.2"]
     subprocess.run([program, *map(str, other)], check=True, capture_output=True, timeout=300)
     if "Case X1 was run with other settings: friction of the case in place of 0.2" not in table.read_text():
         sys.exit(f"table2.md mixes runs of different settings: {table.read_text()}")
 
     refused([*run, "--resume", "--friction", "0.25"], "checkpoint.bin", "friction", "--resume")
     refused([*run, "--resume", "--scalar", "double"], "scalar", "float", "double")
-    fast = ["--case", "X1", "--until", "0.0005", "--no-frames", "--out", folder / "fast", "--time-step", "4.5e-5"]
+    fast = ["--case", "X1", "--until", "0.0005", "--no-frames", "--no-surfaces", "--out", folder / "fast",
+            "--time-step", "4.5e-5"]
     warned = subprocess.run([program, *map(str, fast)], check=True, capture_output=True, text=True, timeout=300)
     if "beyond the limit" not in warned.stderr or "esophagus" not in warned.stderr:
         sys.exit(f"a step beyond the limit went without a warning: {warned.stderr}")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Checks what a run of the swallow left behind, the frames with the real VTK where it is installed.
 
-Usage: check_output.py FOLDER CASE
+Usage: check_output.py FOLDER CASE [--no-surfaces], the last for a run with that option
 """
 import json
 import math
@@ -9,7 +9,7 @@ import pathlib
 import sys
 import xml.etree.ElementTree
 
-out, case = pathlib.Path(sys.argv[1]), sys.argv[2]
+out, case, with_surfaces = pathlib.Path(sys.argv[1]), sys.argv[2], "--no-surfaces" not in sys.argv
 folder = out / case
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -19,8 +19,8 @@ def expect(condition, what):
         sys.exit(f"{folder}: {what}")
 
 
-for picture in (folder / "sheet.png", folder / "rear.png", folder / "sections.png", out / "fold.png",
-                out / "model.png"):
+pictures = [folder / "sheet.png", folder / "rear.png", folder / "sections.png", out / "fold.png", out / "model.png"]
+for picture in pictures + [folder / "surfaces.png"] * with_surfaces:
     expect(picture.read_bytes().startswith(PNG), f"{picture.name} is no PNG")
 expect(f"{case}" in (out / "table2.md").read_text(), "table2.md does not name the case")
 
@@ -58,20 +58,46 @@ for row, sample in zip(contacts, rows):
             expect(0 <= tangential <= summary["friction"] * normal * 1.0001, f"{name}: friction beyond its limit")
 expect(f"{case}" in (out / "mechanisms.md").read_text(), "mechanisms.md does not name the case")
 
-frames = xml.etree.ElementTree.parse(folder / "frames.pvd").getroot().findall("Collection/DataSet")
-expect(frames, "frames.pvd names no frame")
+
+
+def frames_in(name):
+    frames = xml.etree.ElementTree.parse(folder / name).getroot().findall("Collection/DataSet")
+    expect(frames, f"{name} names no frame")
+    return frames
+
+
+frames = frames_in("frames.pvd")
+surfaces = frames_in("surfaces.pvd") if with_surfaces else []
 try:
     import vtk
 except ImportError:
     print("VTK is not here: the frames were not read")
     sys.exit(0)
-for frame in frames:
+
+
+def grid_of(frame):
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(folder / frame.get("file")))
     reader.Update()
-    grid = reader.GetOutput()
+    return reader.GetOutput()
+
+
+for frame in frames:
+    grid = grid_of(frame)
     expect(grid.GetNumberOfPoints() == summary["particles_free"] + summary["particles_control"],
            f"{frame.get('file')} has {grid.GetNumberOfPoints()} particles")
     expect(all(map(math.isfinite, grid.GetBounds())), f"{frame.get('file')} has no finite bounds")
     expect(grid.GetPointData().GetNumberOfArrays() > 0, f"{frame.get('file')} holds no data")
-print(f"{case}: {len(rows)} samples, {len(frames)} frames")
+for frame in surfaces:
+    grid = grid_of(frame)
+    organs = grid.GetPointData().GetArray("organ")
+    expect({grid.GetCellType(cell) for cell in range(0, grid.GetNumberOfCells(), 1000)} == {vtk.VTK_TRIANGLE},
+           f"{frame.get('file')} holds what is no triangle")
+    expect({organs.GetValue(point) for point in range(grid.GetNumberOfPoints())} == set(range(9)),
+           f"{frame.get('file')} lacks an organ")
+    # The surfaces lie where the particles are, and on the right.
+    lower_x, upper_x, lower_y, upper_y, lower_z, upper_z = grid.GetBounds()
+    expect(-85e-3 < lower_x < -70e-3 and 15e-3 < upper_x < 30e-3 and -35e-3 < lower_z < -25e-3 and
+           95e-3 < upper_z < 105e-3 and -1e-3 < lower_y < 1e-3 and 25e-3 < upper_y < 35e-3,
+           f"{frame.get('file')} has the bounds {grid.GetBounds()}")
+print(f"{case}: {len(rows)} samples, {len(frames)} frames, {len(surfaces)} of surfaces")

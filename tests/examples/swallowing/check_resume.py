@@ -103,6 +103,8 @@ def refuses_what_is_incomplete(whole, out):
     refused(out, "series.csv", "start anew without --resume")
     lose("frames/frame_00001.vtu")
     refused(out, "frame_00001.vtu", "--no-frames")
+    lose("surfaces/surface_00000.vtu")
+    refused(out, "surface_00000.vtu", "--no-frames")
     lose("frames.pvd", 0.3)
     refused(out, "frames.pvd", "--no-frames")
     lose("snapshots/snapshot_0.000s.bin")

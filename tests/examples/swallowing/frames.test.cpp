@@ -81,6 +81,31 @@ TEST(Frames, ANewRunRemovesTheFramesOfTheOld) {
   EXPECT_EQ(files_in(folder.path() / "frames"), 1u);
 }
 
+TEST(Frames, SurfacesHaveAListOfTheirOwn) {
+  const TemporaryFolder folder;
+  const std::vector<std::array<hmps::Index, 3>> triangles{{0, 1, 2}};
+  const Cloud cloud;
+  Frames frames(folder.path());
+  cloud.write(frames, 0);
+  {
+    Frames surfaces(folder.path(), {}, 0, "surface");
+    for (int i = 0; i < 3; ++i)
+      surfaces.add(0.1 * i, examples::numbers("position", hmps::vectors(cloud.x)), cloud.fields(), triangles);
+    EXPECT_EQ(surfaces.list().back().second, "surfaces/surface_00002.vtu");
+  }
+  EXPECT_NE(examples::read_file(folder.path() / "surfaces/surface_00000.vtu").find("NumberOfCells=\"1\""),
+            std::string::npos);
+  EXPECT_EQ(files_in(folder.path() / "frames"), 1u);
+  const Frames resumed(folder.path(), 0.1, 2, "surface");
+  EXPECT_EQ(resumed.list().size(), 2u);
+  EXPECT_EQ(files_in(folder.path() / "surfaces"), 2u);
+  EXPECT_NE(examples::read_file(folder.path() / "surfaces.pvd").find("surface_00001.vtu"), std::string::npos);
+  EXPECT_EQ(message_of<hmps::InputError>([&] {
+              (void)Frames(folder.path(), 0.1, 3, "surface");
+            }).find((folder.path() / "surfaces.pvd").string() + " lists 2 of the 3 surfaces that were written"),
+            0u);
+}
+
 TEST(Frames, AreNotResumedWhereSomeAreMissing) {
   const TemporaryFolder folder;
   {

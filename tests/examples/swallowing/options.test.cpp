@@ -37,6 +37,7 @@ TEST(Options, DefaultsAreAllCasesAtTheDefaultSpacing) {
   EXPECT_TRUE(parsed.options->single_precision);
   EXPECT_FALSE(parsed.options->friction);
   EXPECT_TRUE(parsed.options->frames);
+  EXPECT_TRUE(parsed.options->surfaces);
   EXPECT_TRUE(parsed.options->constrictors);
   EXPECT_FALSE(parsed.options->resume);
   EXPECT_GE(parsed.options->threads, 1);
@@ -83,6 +84,8 @@ TEST(Options, EveryOptionArrives) {
   EXPECT_EQ(parsed.options->lattice_shift, 0.5);
   EXPECT_FALSE(parsed.options->constrictors);
   EXPECT_EQ(parsed.options->frame_interval, 0.02);
+  EXPECT_TRUE(parsed.options->surfaces);
+  EXPECT_FALSE(parse({"--no-surfaces"}).options->surfaces);
   EXPECT_EQ(parse({"--penalty-ratio", "0.1"}).options->penalty_ratio, 0.1);
   EXPECT_EQ(parse({"--step-share", "0.4"}).options->step_share, 0.4);
   EXPECT_EQ(parse({}).options->stiffness, 1);
@@ -128,7 +131,7 @@ TEST(Options, HelpNamesEveryOptionAndEndsWell) {
   EXPECT_FALSE(parsed.options);
   EXPECT_EQ(parsed.exit_code, 0);
   for (const char* name : {"--case", "--spacing", "--time-step", "--until", "--friction", "--scalar", "--threads",
-                           "--out", "--resume", "--no-frames", "--help"})
+                           "--out", "--resume", "--no-frames", "--no-surfaces", "--help"})
     EXPECT_NE(parsed.out.find(name), std::string::npos) << name;
 }
 

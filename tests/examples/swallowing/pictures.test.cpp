@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
+#include "output/carried_organs.hpp"
 #include "output/checkpoint.hpp"
 #include "output/comparison.hpp"
 #include "output/labels.hpp"
@@ -264,6 +266,114 @@ TEST(Pictures, TheModelOfYLacksF) {
   const auto letters = swallowing::draw_model(folder.path() / "model.png", at_rest(scene), "model Y");
   EXPECT_FALSE(letters.contains("F"));
   EXPECT_TRUE(letters.contains("E") && letters.contains("G") && letters.contains("H"));
+}
+
+/// The particles of some organs of the scene.
+swallowing::Scene part_of(const swallowing::Scene& scene, const std::set<swallowing::Organ>& organs) {
+  swallowing::Scene part;
+  part.spacing = scene.spacing;
+  part.regions = scene.regions;
+  for (std::size_t i = 0; i < scene.reference.size(); ++i) {
+    if (!organs.contains(scene.organ[i])) continue;
+    part.reference.push_back(scene.reference[i]);
+    part.organ.push_back(scene.organ[i]);
+    part.region.push_back(scene.region[i]);
+    part.elastic_count += i < scene.elastic_count;
+  }
+  return part;
+}
+
+/// Epiglottis, soft palate and plates.
+const swallowing::Scene& leaf_and_palate() {
+  using swallowing::Organ;
+  static const auto scene = part_of(swallowing::make_scene({.spacing = 2.4e-3, .data = SWALLOWING_DATA}),
+                                    {Organ::epiglottis, Organ::soft_palate, Organ::constrictors});
+  return scene;
+}
+const swallowing::CarriedOrgans& their_surfaces() {
+  static const swallowing::CarriedOrgans organs(leaf_and_palate(), 1);
+  return organs;
+}
+
+TEST(Pictures, TheSurfacesOfTheOrgansAreClosedAndHoldTheRightHalf) {
+  using swallowing::Organ;
+  const auto& organs = their_surfaces();
+  const Snapshot s = at_rest(leaf_and_palate());
+  const auto vertices = organs.vertices(s.positions);
+  ASSERT_EQ(vertices.size(), organs.organ().size());
+  std::map<std::pair<hmps::Index, hmps::Index>, int> edges;
+  std::map<Organ, double> volume, cut;
+  for (std::size_t t = 0; t < organs.triangles().size(); ++t) {
+    const auto& corners = organs.triangles()[t];
+    std::array<Eigen::Vector3d, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = Eigen::Map<const Eigen::Vector3f>(vertices[corners[k]].data()).cast<double>();
+      ++edges[std::minmax(corners[k], corners[(k + 1) % 3])];
+      EXPECT_GT(at[k][1], -0.1e-3);
+      EXPECT_TRUE(!organs.cut(t) || at[k][1] < 0.7e-3);
+    }
+    const Organ organ = organs.organ()[corners[0]];
+    volume[organ] += at[0].dot(at[1].cross(at[2])) / 6;
+    if (organs.cut(t)) cut[organ] += (at[2] - at[0]).cross(at[1] - at[0])[1] / 2;
+  }
+  for (const auto& [edge, count] : edges) ASSERT_EQ(count, 2) << edge.first << ' ' << edge.second;
+  for (const Organ organ : {Organ::epiglottis, Organ::soft_palate}) {
+    const auto particles = std::count(leaf_and_palate().organ.begin(), leaf_and_palate().organ.end(), organ);
+    const double half = static_cast<double>(particles) / 2 * std::pow(2.4e-3, 3);
+    EXPECT_NEAR(volume[organ] / half, 1, 0.15) << name(organ);  // the lattice cuts sheets of two particles
+  }
+  EXPECT_NEAR(cut[Organ::epiglottis] / (36e-3 * 4.8e-3), 1, 0.05) << "length times thickness";
+}
+
+TEST(Pictures, TheSurfacesMoveWithTheParticles) {
+  const auto& organs = their_surfaces();
+  Snapshot s = at_rest(leaf_and_palate());
+  const auto before = organs.vertices(s.positions);
+  for (auto& p : s.positions) p = {p[0] + 3e-3f, 1.2f * p[1], p[2] - 0.1f * p[0]};
+  const auto after = organs.vertices(s.positions);
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    EXPECT_NEAR(after[v][0], before[v][0] + 3e-3f, 1e-6);
+    EXPECT_NEAR(after[v][1], 1.2f * before[v][1], 1e-6);
+    EXPECT_NEAR(after[v][2], before[v][2] - 0.1f * before[v][0], 1e-6);
+  }
+}
+
+TEST(Pictures, SurfacesAreDrawnInTheColoursOfTheirOrgans) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "surfaces.png";
+  const Snapshots snapshots(folder.path() / "snapshots");
+  Snapshot s = at_rest(leaf_and_palate());
+  const auto draw = [&] {
+    snapshots.add(0, s);
+    swallowing::draw_surfaces(path, snapshots, their_surfaces(), "surfaces");
+    return Png(path);
+  };
+  // The first panel, 400 pixels wide: the palate above, the leaf below; what is cut has the plain colour.
+  constexpr auto palate = [](int r, int g, int b) { return r == 0xe8 && g == 0x91 && b == 0x5b; };
+  constexpr auto leaf = [](int r, int g, int b) { return r == 0xf5 && g == 0xc2 && b == 0x11; };
+  constexpr auto white = [](int r, int g, int b) { return r == 255 && g == 255 && b == 255; };
+  const Png picture = draw();
+  const int height = cairo_image_surface_get_height(picture.surface) / 2 - 106;
+  const auto above = [&](const Png& p, auto&& colour) { return p.share(colour, 18, 106, 400, height / 2); };
+  const auto below = [&](const Png& p, auto&& colour) {
+    return p.share(colour, 18, 106 + height / 2, 400, height / 2);
+  };
+  EXPECT_GT(above(picture, palate), 0.01);
+  EXPECT_EQ(below(picture, palate), 0);
+  EXPECT_GT(below(picture, leaf), 0.01);
+  EXPECT_EQ(above(picture, white), 0) << "the ground shows through where nothing is";
+
+  // The palate, moved before the leaf, hides it; behind it, on the right, it does not.
+  const auto leaf_beside_palate = [&](float sideways) {
+    s = at_rest(leaf_and_palate());
+    for (std::size_t i = 0; i < s.positions.size(); ++i)
+      if (s.organ_of(i) == "soft palate")
+        s.positions[i] = {s.positions[i][0] + 4e-3f, s.positions[i][1] + sideways, s.positions[i][2] - 0.05f};
+    return draw().share(leaf);
+  };
+  const double behind = leaf_beside_palate(0.03f), before = leaf_beside_palate(-0.03f);
+  EXPECT_GT(behind, 1e-3);
+  EXPECT_LT(before, 0.85 * behind);
 }
 
 /// A sheet of one organ across the midsagittal plane.
