@@ -97,7 +97,7 @@ for frame in surfaces:
            f"{frame.get('file')} lacks an organ")
     # The surfaces lie where the particles are, and on the right.
     lower_x, upper_x, lower_y, upper_y, lower_z, upper_z = grid.GetBounds()
-    expect(-85e-3 < lower_x < -70e-3 and 15e-3 < upper_x < 30e-3 and -35e-3 < lower_z < -25e-3 and
-           95e-3 < upper_z < 105e-3 and -1e-3 < lower_y < 1e-3 and 25e-3 < upper_y < 35e-3,
+    expect(-85e-3 < lower_x < -70e-3 and 15e-3 < upper_x < 30e-3 and -35e-3 < lower_z < -15e-3 and
+           95e-3 < upper_z < 105e-3 and -3e-3 < lower_y < 1e-3 and 20e-3 < upper_y < 35e-3,
            f"{frame.get('file')} has the bounds {grid.GetBounds()}")
 print(f"{case}: {len(rows)} samples, {len(frames)} frames, {len(surfaces)} of surfaces")
