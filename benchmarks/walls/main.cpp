@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "report/study.hpp"
+#include "walls/density.hpp"
 #include "walls/inclines.hpp"
 #include "walls/layers.hpp"
 #include "walls/slides.hpp"
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
       "surface: drag, ripple, friction",
       "the smooth kernel at 15 degrees, to see that the properties hold");
   return study.run(argc, argv, [&] {
+    study.publish(density_table(), {"normal_density.png", "The normal density Z(y)", draw_density});
     std::vector<Found> all;
     if (!study.quick) measure<hmps::PaperMetaball>("paper", Part::wall, study.quick, all);
     measure<hmps::SmoothMetaball>("smooth", Part::wall, study.quick, all);

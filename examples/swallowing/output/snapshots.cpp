@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "../../common/error.hpp"
 #include "output/checkpoint.hpp"
 
 namespace swallowing {
@@ -39,7 +40,7 @@ void Snapshots::add(double time, const Snapshot& snapshot) const {
   box.save(file(folder_, time));
 }
 
-std::optional<Snapshot> load_snapshot(const std::filesystem::path& folder, double time) {
+std::optional<Snapshot> load_snapshot(const std::filesystem::path& folder, double time) try {
   const auto box = Checkpoint::load(file(folder, time));
   if (!box) return std::nullopt;
   Snapshot s;
@@ -54,6 +55,8 @@ std::optional<Snapshot> load_snapshot(const std::filesystem::path& folder, doubl
   box->get("tip", s.tip);
   s.tip_angle = box->value<double>("tip_angle");
   return s;
+} catch (const hmps::InputError& error) {
+  throw hmps::InputError(examples::message("cannot draw ", file(folder, time).string(), ": ", error.what()));
 }
 
 }  // namespace swallowing
