@@ -73,7 +73,7 @@ void for_each_cell(std::string_view line, Use&& use) {
 /// per column. Ignores blank lines, text after `#` and blanks around cells; lines may end in CR LF. `source` names the
 /// text in messages. Throws `InputError` with source, line and column at the first cell that is not a finite number,
 /// and for rows with too few or too many cells, empty or repeated column names, columns separated by something other
-/// than commas, text in UTF-16 or with lines that end in CR alone, and text without a header.
+/// than commas, text in UTF-16 or with a line that ends in CR alone, and text without a header.
 [[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
   Table table;
   table.source = std::move(source);
@@ -81,9 +81,11 @@ void for_each_cell(std::string_view line, Use&& use) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   detail::require(!text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF"), "hmps: ", table.source,
                   " is a text in UTF-16; save it in UTF-8 or ASCII");
-  detail::require(
-      text.find('\n') != std::string_view::npos || detail::trimmed(text).find('\r') == std::string_view::npos,
-      "hmps: ", table.source, " has lines that end in CR alone; save it with line ends of LF or CR LF");
+  for (std::size_t at = text.find('\r'); at < text.size(); at = text.find('\r', at)) {
+    at = text.find_first_not_of('\r', at);
+    detail::require(at >= text.size() || text[at] == '\n', "hmps: ", table.source,
+                    " has a line that ends in CR alone; save it with line ends of LF or CR LF");
+  }
   for (std::size_t line_number = 1; !text.empty(); ++line_number) {
     std::string_view line = detail::take_line(text);
     line = detail::trimmed(line.substr(0, line.find('#')));

@@ -15,9 +15,9 @@ namespace hmps::inline HMPS_ABI::detail {
 
 /// Replaces the contents of the file at `path` with `bytes`: writes them beside it as `path`.part, which it then
 /// renames, so that a reader finds either the whole old file or the whole new one, even if the program is killed
-/// meanwhile. Follows symbolic links. Does not wait until the data are on the disk: a loss of power may cost the latest
-/// files. Throws `InputError` with the name and the reason, also if `path` exists and is not a regular file (a device,
-/// for example); the old file then remains.
+/// meanwhile. Follows a symbolic link at `path`, but replaces whatever file or link bears the temporary name. Does not
+/// wait until the data are on the disk: a loss of power may cost the latest files. Throws `InputError` with the name
+/// and the reason, also if `path` exists and is not a regular file (a device, for example); the old file then remains.
 inline void replace_file(std::filesystem::path path, std::string_view bytes) {
   std::error_code problem;
   const std::filesystem::file_status status = std::filesystem::status(path, problem);
@@ -34,6 +34,10 @@ inline void replace_file(std::filesystem::path path, std::string_view bytes) {
     throw InputError(message("hmps: cannot ", what, " ", path.string(), ": ", reason,
                              "; check that its folder exists, its permissions and the free space"));
   };
+  // Written through, a link under that name would overwrite the file to which it leads, and then take the place of
+  // `path`.
+  if (!std::filesystem::is_directory(std::filesystem::symlink_status(temporary, problem)))
+    std::filesystem::remove(temporary, problem);
   errno = 0;
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

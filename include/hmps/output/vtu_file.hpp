@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -23,7 +22,9 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/output/file_replacement.hpp"
+#include "hmps/output/position_field.hpp"
 #include "hmps/output/vtk_field.hpp"
+#include "hmps/output/xml_text.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -47,36 +48,12 @@ namespace detail {
 /// The byte order of this machine, as VTK calls it.
 inline constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
-/// `text` escaped for XML between quotes. Bytes that XML cannot hold become question marks.
-[[nodiscard]] inline std::string xml(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  }
-  return result;
-}
-
-/// The shortest digits that read back as the same number, in any locale.
-[[nodiscard]] inline std::string shortest(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-/// Words as VTK stores them: the numbers of their bytes, with a zero after each word.
+/// Words as VTK stores them: the numbers of their bytes, with a zero after each word. Readers expect UTF-8 here too.
 [[nodiscard]] inline std::string vtk_words(const VtkNames& names) {
   std::string text = "<Array type=\"String\" Name=\"" + xml(names.field) + " names\" NumberOfTuples=\"" +
                      std::to_string(names.names.size()) + "\" format=\"ascii\">\n";
   for (const std::string& name : names.names) {
-    for (const char c : name) text += std::to_string(static_cast<unsigned char>(c)) + ' ';
+    for (const char c : xml_characters(name)) text += std::to_string(static_cast<unsigned char>(c)) + ' ';
     text += "0\n";
   }
   return text + "</Array>\n";
@@ -140,9 +117,9 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
   for (std::size_t i = 0; i < found->bytes.size() / sizeof(std::int32_t); ++i) {
     std::int32_t value = 0;
     std::memcpy(&value, found->bytes.data() + i * sizeof(value), sizeof(value));
-    require(value < static_cast<std::int64_t>(names.names.size()), "hmps: number ", i, " of the field ", names.field,
-            " of a VTU file is ", value, ", but there are only ", names.names.size(),
-            " names for its values; give one for each, counted from 0");
+    require(value >= 0 && value < static_cast<std::int64_t>(names.names.size()), "hmps: number ", i, " of the field ",
+            names.field, " of a VTU file is ", value, ", but there are ", names.names.size(),
+            " names, for the values from 0 on; give a name for each value, and no negative values");
   }
 }
 }  // namespace detail
@@ -150,7 +127,7 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
 /// Points with fields as the bytes of a VTK file (.vtu, unstructured grid, version 1.0, appended raw data), which
 /// ParaView, VTK and meshio read. `positions` are in m, with three components. Throws `InputError` for fields of
 /// another size, without a name or with equal names, for triangles that name points that do not exist, for names that
-/// belong to no integer field, are too few for its values or are given twice, and for a time that is not finite.
+/// belong to no integer field, do not name all of its values or are given twice, and for a time that is not finite.
 [[nodiscard]] inline std::string vtu_text(const VtkField& positions, std::span<const VtkField> fields,
                                           const VtuSettings& settings = {}) {
   const std::size_t size = positions.size();
@@ -194,7 +171,9 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
 ///     write_vtu("body.vtu", x, {{vtk_field("velocity", v), vtk_field("organ", scalars(organ))}},
 ///               {.time = t, .names = {{"organ", {"tongue", "palate"}}}});
 ///
-/// Positions `x` are in m; in two dimensions z is zero. The file is replaced as a whole: whoever reads it while it is
+/// Positions `x` are in m; in two dimensions z is zero. They are written in single precision, or in double where single
+/// precision does not resolve 1e-4 of the spacing; see `position_field`. Of a name, bytes that are not UTF-8 become
+/// question marks. The file is replaced as a whole: whoever reads it while it is
 /// written finds the old one. Throws `InputError` as `vtu_text` does, for a position that is not finite, for a name
 /// that does not end in .vtu, and, with the name and the reason, if the file cannot be written.
 template <class T, int D>
@@ -203,7 +182,7 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
   detail::require(path.extension() == ".vtu", "hmps: ", path.string(),
                   " should be a VTK file of the kind .vtu; give it that ending, by which ParaView recognises it");
   require_finite(x, "the position");
-  detail::replace_file(path, vtu_text(vtk_field("position", x), fields, settings));
+  detail::replace_file(path, vtu_text(position_field("position", x), fields, settings));
 }
 
 /// The text of a ParaView collection (.pvd): the time in s and the file of each frame, with its name relative to the
@@ -228,10 +207,15 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
 class VtuSeries {
  public:
   /// Begins the collection `path` (.pvd). Throws `InputError` if its folder cannot be made or written to, and for a
-  /// name that does not end in .pvd.
+  /// name that does not end in .pvd, is not UTF-8 or has control characters.
   explicit VtuSeries(const std::filesystem::path& path) : path_(std::filesystem::absolute(path)) {
     detail::require(path_.extension() == ".pvd", "hmps: ", path_.string(),
                     " should be a ParaView collection; end its name in .pvd");
+    // The collection names its frames, so that ParaView would look for question marks.
+    const std::string stem = path_.stem().string();
+    detail::require(detail::xml_characters(stem) == stem, "hmps: the name of the ParaView collection ",
+                    detail::printable(stem),
+                    " has control characters or bytes that are not UTF-8; give it another name");
     std::error_code problem;
     std::filesystem::create_directories(path_.parent_path(), problem);
     detail::replace_file(path_, pvd_text(frames_));

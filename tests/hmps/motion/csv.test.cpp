@@ -111,6 +111,12 @@ TEST(Csv, RefusesCellsThatDoNotExist) {
 
 TEST(Csv, RefusesOtherLineEndsAndEncodings) {
   expect_contains(message_of([] { (void)hmps::parse_csv("t,x\r0,1\r1,3\r"); }), "CR alone");
+  // A single LF elsewhere does not make lines of the others.
+  for (const char* text :
+       {"t,x\r0,1\n", "t,x\n0,1\r1,3", "t,x\r\n0,1 # one\r1,3\r\n", "t,x\n\r0,1\n", "t,x\n0,1\r \r1,3\n"})
+    expect_contains(message_of([&] { (void)hmps::parse_csv(text); }), "CR alone");
+  for (const char* text : {"t,x\r\n0,1\r\n", "t,x\r\r\n0,1\r", "t,x\n0,1\r\r"})
+    EXPECT_EQ(hmps::parse_csv(text).rows(), 1U) << text;
   EXPECT_EQ(hmps::parse_csv("t,x\r").rows(), 0u);
   EXPECT_EQ(hmps::parse_csv("t,x\r\n0,1\r\n").rows(), 1u);
   expect_contains(message_of([] { (void)hmps::parse_csv(std::string("\xFF\xFEt\0,\0x\0\n\0", 10)); }), "UTF-16");

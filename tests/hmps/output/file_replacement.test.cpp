@@ -30,6 +30,24 @@ TEST(FileReplacement, ALinkStaysALink) {
   EXPECT_EQ(detail::read_text(file.string()), "second");
 }
 
+TEST(FileReplacement, TheTemporaryNameIsNoWayToAnotherFile) {
+  const hmps_test::TemporaryFolder folder;
+  const auto other = folder.path() / "precious.txt", path = folder.path() / "a.bin",
+             part = folder.path() / "a.bin.part";
+  const auto expect_other_kept = [&] {
+    detail::replace_file(path, "new");
+    EXPECT_EQ(detail::read_text(other.string()), "precious");
+    EXPECT_EQ(detail::read_text(path.string()), "new");
+    EXPECT_FALSE(std::filesystem::is_symlink(path));
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(part)));
+  };
+  detail::replace_file(other, "precious");
+  std::filesystem::create_symlink("precious.txt", part);
+  expect_other_kept();
+  std::filesystem::create_hard_link(other, part);
+  expect_other_kept();
+}
+
 TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
   const hmps_test::TemporaryFolder folder;
   const auto missing = folder.path() / "missing" / "a.bin";

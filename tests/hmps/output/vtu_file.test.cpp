@@ -85,6 +85,30 @@ TEST(VtuFile, ASeriesListsItsFramesAsTheyCome) {
             std::string::npos);
 }
 
+TEST(VtuFile, KeepsPointsApartAnywhere) {
+  std::vector<Vector<double, 3>> x;
+  for (int k = 0; k < 10; ++k) x.push_back({1000 + 2e-5 * k, 0, 0});
+  const hmps_test::TemporaryFolder folder;
+  write_vtu(folder.path() / "a.vtu", vectors(x));
+  const std::string text = detail::read_text((folder.path() / "a.vtu").string());
+  EXPECT_NE(text.find("type=\"Float64\" Name=\"position\""), std::string::npos);
+  for (auto& place : x) place[0] -= 1000;
+  write_vtu(folder.path() / "a.vtu", vectors(x));
+  EXPECT_NE(detail::read_text((folder.path() / "a.vtu").string()).find("type=\"Float32\" Name=\"position\""),
+            std::string::npos);
+}
+
+TEST(VtuFile, NamesThatAreNotUtf8BecomeQuestionMarks) {
+  const Cloud cloud;
+  const std::string text =
+      vtu_text(vtk_field("position", vectors(cloud.x)),
+               std::vector{vtk_field("press\xe3o", scalars(cloud.j)), vtk_field("o\xff", scalars(cloud.organ))},
+               {.names = {{"o\xff", {"a\xe9", "b"}}}});
+  EXPECT_NE(text.find("Name=\"press?o\""), std::string::npos);
+  EXPECT_NE(text.find("Name=\"o? names\""), std::string::npos);
+  EXPECT_NE(text.find("\n97 63 0\n98 0\n"), std::string::npos);  // a question mark is byte 63
+}
+
 // VTK itself reads back what was written: read_vtu.py beside this file compares every value.
 TEST(VtuFile, VtkReadsItBack) {
   const std::string python = "/usr/bin/python3 ";
@@ -160,6 +184,12 @@ TEST(VtuFileMisuse, IsRefused) {
   const std::vector<VtkField> fields{vtk_field("organ", scalars(organ))};
   EXPECT_THROW(write_vtu(path, vectors(x), fields, {.names = {{"organ", {"tongue", "palate"}}}}), InputError);
   EXPECT_NO_THROW(write_vtu(folder.path() / "named.vtu", vectors(x), fields, {.names = {{"organ", {"a", "b", "c"}}}}));
+  const std::vector<int> signed_organ{-1, 0};
+  EXPECT_NE(error_of([&] {
+              write_vtu(path, vectors(x), {vtk_field("organ", scalars(signed_organ))}, {.names = {{"organ", {"a"}}}});
+            }).find("number 0 of the field organ of a VTU file is -1"),
+            std::string::npos);
+  EXPECT_THROW(VtuSeries(folder.path() / "s\xe9rie.pvd"), InputError);
   const VtuSettings twice{.names = {{"organ", {"a", "b", "c"}}, {"organ", {"d", "e", "f"}}}};
   EXPECT_THROW(write_vtu(path, vectors(x), fields, twice), InputError);
   VtuSeries frames(folder.path() / "run.pvd");
