@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/direction.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
@@ -49,10 +50,10 @@ void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, d
 template <class V, int D, class Derived>
 void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen::MatrixBase<Derived>& normal) {
   require_size(v, held.scene_size(), "velocities");
-  const Vector<double, D> given = normal.template cast<double>();
+  const Vector<double, D> given = detail::measurable<double, D>(normal.template cast<double>());
   const double length = given.norm();
-  detail::require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (", given.transpose(),
-                  "); give a direction of finite, nonzero length");
+  detail::require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (",
+                  normal.transpose(), "); give a direction of finite, nonzero length");
   const Vector<double, D> n = given / length;
   for (const Index i : held) {
     const Vector<double, D> own = v[i].template cast<double>();

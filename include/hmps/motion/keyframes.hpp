@@ -56,7 +56,7 @@ class Keyframes {
   }
   Keyframes(std::initializer_list<Keyframe<N>> keys) : Keyframes(std::vector<Keyframe<N>>(keys)) {}
 
-  /// The value at `time` (s). Throws `InputError` for NaN.
+  /// The value at `time` (s). Throws `InputError` for NaN, and after a move.
   [[nodiscard]] Value value(double time) const {
     require_time(time);
     if (!(time > keys_.front().time)) return keys_.front().value;
@@ -71,7 +71,7 @@ class Keyframes {
   }
   [[nodiscard]] Value operator()(double time) const { return value(time); }
 
-  /// The derivative of the value with respect to time at `time` (s). Throws `InputError` for NaN.
+  /// The derivative of the value with respect to time at `time` (s). Throws `InputError` for NaN, and after a move.
   [[nodiscard]] Value rate(double time) const {
     require_time(time);
     if (!(time > keys_.front().time) || time >= keys_.back().time) return zero();
@@ -98,7 +98,8 @@ class Keyframes {
     else
       return value[c];
   }
-  static void require_time(double time) {
+  void require_time(double time) const {
+    detail::require(!keys_.empty(), "hmps: a track that was moved from has no keyframes; use the one it was moved to");
     detail::require(!detail::is_nan(time), "hmps: a track is asked for its value at the time NaN; give seconds");
   }
   [[nodiscard]] std::size_t piece(double time) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/direction.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
@@ -48,9 +49,9 @@ struct Turn {
   /// A template, so that it is compiled only in programs that call it.
   template <std::same_as<double> T = double>
   [[nodiscard]] Pose<T, 3> operator()(std::type_identity_t<T> t) const {
-    const Vector<T, 3> about = axis;
+    const Vector<T, 3> about = detail::measurable<T, 3>(axis);
     const T length = about.norm();
-    detail::require(detail::is_finite(length) && length > 0, "hmps: the axis of a turn is (", about.transpose(),
+    detail::require(detail::is_finite(length) && length > 0, "hmps: the axis of a turn is (", axis.transpose(),
                     "); give a direction of finite, nonzero length");
     return {rotation<T>(Vector<T, 3>(angle.value(t) * about.normalized())), pivot, Vector<T, 3>::Zero()};
   }

@@ -86,8 +86,8 @@ class CarriedSurface {
     }
   }
 
-  /// The number of points.
-  [[nodiscard]] std::size_t size() const { return offset_.size() - 1; }
+  /// The number of points; 0 after a move.
+  [[nodiscard]] std::size_t size() const { return offset_.empty() ? 0 : offset_.size() - 1; }
   /// The shares of particles in point `p`, sorted by particle. Throws `InputError` for a point that does not exist.
   [[nodiscard]] std::span<const Share> shares(std::size_t p) const {
     detail::require(p < size(), "hmps: the shares in point ", p,

@@ -24,7 +24,8 @@ struct NeighbourList {
   std::vector<std::size_t> offset{0};
   std::vector<Index> neighbour;
 
-  [[nodiscard]] std::size_t size() const { return offset.size() - 1; }
+  /// The number of particles; 0 after a move.
+  [[nodiscard]] std::size_t size() const { return offset.empty() ? 0 : offset.size() - 1; }
   /// The neighbours of particle `i`. Throws `InputError` for a particle that does not exist.
   [[nodiscard]] std::span<const Index> operator[](std::size_t i) const {
     detail::require(i < size(), "hmps: the neighbours of particle ", i, " are asked for, but the list has only ",

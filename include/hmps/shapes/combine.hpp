@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -72,7 +73,9 @@ template <class A>
 [[nodiscard]] auto unite_all(std::vector<A> shapes) {
   detail::require(!shapes.empty(), "hmps: unite_all was given no shapes; give at least one");
   return detail::Combined{[shapes = std::move(shapes)](const auto& x) {
-    auto least = shapes.front()(x);
+    using S = std::decay_t<decltype(shapes.front()(x))>;
+    if (shapes.empty()) return std::numeric_limits<S>::quiet_NaN();  // moved from
+    S least = shapes.front()(x);
     for (std::size_t k = 1; k < shapes.size(); ++k) least = detail::smaller(least, shapes[k](x));
     return least;
   }};

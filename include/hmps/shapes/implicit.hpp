@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/direction.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -95,8 +96,9 @@ struct HalfSpace {
   Vector<S, D> point = Vector<S, D>::Zero();  ///< m
   Vector<S, D> outward;                       ///< not zero
   [[nodiscard]] S operator()(const Vector<S, D>& x) const {
-    const S length = outward.norm();
-    return detail::distance_if(length > S(0), outward.dot(x - point) / length);
+    const Vector<S, D> normal = detail::measurable<S, D>(outward);
+    const S length = normal.norm();
+    return detail::distance_if(length > S(0), normal.dot(x - point) / length);
   }
 };
 

@@ -31,6 +31,10 @@ class MeshDistance {
   /// Throws `InputError` for a surface without triangles, or a broken one.
   explicit MeshDistance(const SurfaceMesh<S>& mesh, double accuracy = 2)
       : tree_(std::make_shared<const TriangleTree>(mesh, accuracy)), box_(bounds(mesh)) {}
+  // Without moves: these copy, so that one moved from can still be called.
+  MeshDistance(const MeshDistance&) = default;
+  MeshDistance& operator=(const MeshDistance&) = default;
+  ~MeshDistance() = default;
 
   /// Signed distance in m of `x` (m), negative inside; NaN where `x` is not finite.
   [[nodiscard]] S operator()(const Vector<S, 3>& x) const {

@@ -22,6 +22,10 @@ template <class S>
 class Redistanced {
  public:
   explicit Redistanced(const SurfaceMesh<S>& isosurface) : surface_(std::make_shared<const Surface>(isosurface)) {}
+  // Without moves: these copy, so that one moved from can still be called.
+  Redistanced(const Redistanced&) = default;
+  Redistanced& operator=(const Redistanced&) = default;
+  ~Redistanced() = default;
 
   /// Signed distance in m of `x` (m), negative inside; NaN where `x` is not finite.
   [[nodiscard]] S operator()(const Vector<S, 3>& x) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/direction.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
@@ -56,6 +57,7 @@ class Tube {
   }
 
   [[nodiscard]] S operator()(const Vector<S, D>& x) const {
+    if (pieces_.empty()) return std::numeric_limits<S>::quiet_NaN();  // moved from
     S least = pieces_.front()(x);
     for (std::size_t k = 1; k < pieces_.size(); ++k) least = std::min(least, pieces_[k](x));
     return least;
@@ -100,6 +102,7 @@ class Stack {
   }
 
   [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
+    if (rows_.empty()) return std::numeric_limits<S>::quiet_NaN();  // moved from
     const S level = x[axis_];
     const StackRow<S> row = section(level);
     const int first = axis_ == 0 ? 1 : 0;
@@ -110,8 +113,9 @@ class Stack {
     return std::max(inside, end);
   }
 
-  /// The interpolated section at `level`; beyond the ends, the end rows.
+  /// The interpolated section at `level`; beyond the ends, the end rows. Throws `InputError` for a stack moved from.
   [[nodiscard]] StackRow<S> section(S level) const {
+    detail::require(!rows_.empty(), "hmps: a stack that was moved from has no sections; use the one it was moved to");
     if (level <= rows_.front().level) return rows_.front();
     if (level >= rows_.back().level) return rows_.back();
     const auto above =
@@ -146,7 +150,7 @@ class Plate {
   /// Throws `InputError` for fewer than two rows, coincident neighbouring centres, a centre line
   /// that leaves its plane, or a row that is not finite and positive.
   explicit Plate(std::vector<PlateRow<S>> rows, const Vector<S, 3>& across = Vector<S, 3>::UnitY(), S exponent = S(2))
-      : rows_(std::move(rows)), across_(across.normalized()), exponent_(exponent) {
+      : rows_(std::move(rows)), across_(detail::measurable<S, 3>(across).normalized()), exponent_(exponent) {
     detail::require(rows_.size() >= 2, "hmps: a plate has ", rows_.size(),
                     " rows; give at least two points of its centre line");
     detail::require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a plate has the exponent ", exponent,
@@ -171,6 +175,7 @@ class Plate {
   }
 
   [[nodiscard]] S operator()(const Vector<S, 3>& x) const {
+    if (rows_.empty()) return std::numeric_limits<S>::quiet_NaN();  // moved from
     const S u = (x - rows_.front().centre).dot(across_);
     const Vector<S, 3> flat = x - u * across_;
     std::size_t piece = 0;
@@ -201,8 +206,10 @@ class Plate {
   }
 
   /// Arc length in metres of the centre line from its first row to the point nearest to `x`: the coordinate for control
-  /// regions along an organ.
+  /// regions along an organ. Throws `InputError` for a plate moved from.
   [[nodiscard]] S arc(const Vector<S, 3>& x) const {
+    detail::require(!rows_.empty(),
+                    "hmps: a plate that was moved from has no centre line; use the one it was moved to");
     const Vector<S, 3> flat = x - (x - rows_.front().centre).dot(across_) * across_;
     S least = std::numeric_limits<S>::max();
     S length{};

@@ -44,6 +44,14 @@ TEST(Hold, TakesTheComponentAlongANormal) {
   EXPECT_EQ(v[0], Vector(1, 2, 3));
 }
 
+TEST(Hold, TakesANormalOfAnyLength) {
+  for (const double length : {1e-320, 1e-200, 1e200, 1e308}) {
+    std::vector<Vector> v(3, Vector(1, 2, 3));
+    hmps::hold_along(hmps::vectors(v), last, Eigen::Vector3d(0, 0, length));
+    EXPECT_EQ(v[2], Vector(1, 2, 0)) << length;
+  }
+}
+
 /// How far the last column of a cantilever in plane strain sinks, 40 x 5 mm and five layers, over the deflection of
 /// Timoshenko's beam there. Its first column lies `behind` spacings behind the clamped face; the `held` first ones are
 /// held.

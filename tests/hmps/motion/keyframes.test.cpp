@@ -101,4 +101,12 @@ TEST(Keyframes, RefusesDisorderAndNamesTheKey) {
   EXPECT_NE(message_of([&] { Keyframes<2>{{0.0, {0.0, nan}}}; }).find("component 1 of keyframe 0"), std::string::npos);
 }
 
+TEST(Keyframes, RefusesATimeAfterAMove) {
+  Track first{{0.0, 0.0}, {1.0, 1.0}};
+  const Track second = std::move(first);
+  EXPECT_EQ(second(0.5), 0.5);
+  EXPECT_THROW((void)first(0.5), hmps::InputError);       // NOLINT(bugprone-use-after-move)
+  EXPECT_THROW((void)first.rate(0.5), hmps::InputError);  // NOLINT(bugprone-use-after-move)
+}
+
 }  // namespace keyframes_test

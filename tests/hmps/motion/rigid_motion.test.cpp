@@ -69,4 +69,10 @@ TEST(Turn, RefusesAnAxisWithoutDirection) {
   EXPECT_THROW((void)(hmps::Turn{V::Zero(), V(NAN, 0, 1), angle}(1.0)), hmps::InputError);
 }
 
+TEST(Turn, TakesAnAxisOfAnyLength) {
+  const Track angle{{.time = 0, .value = 0}, {.time = 1, .value = std::numbers::pi / 2}};
+  for (const double length : {1e-320, 1e-200, 1e200, 1e308})
+    EXPECT_LE((hmps::Turn{V::Zero(), V(0, 0, length), angle}(1.0)(V(1, 0, 0)) - V(0, 1, 0)).norm(), 1e-15) << length;
+}
+
 }  // namespace rigid_motion_test

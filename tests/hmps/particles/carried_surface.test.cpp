@@ -167,4 +167,13 @@ TEST(CarriedSurface, RefusesAPointThatDoesNotExist) {
   EXPECT_THROW((void)carried.shares(carried.size()), InputError);
 }
 
+TEST(CarriedSurface, HasNoPointsAfterAMove) {
+  Ball ball;
+  CarriedSurface carried(vectors(ball.reference), vectors(ball.vertices), l0);
+  const auto moved = std::move(carried);
+  EXPECT_EQ(moved.size(), ball.vertices.size());
+  EXPECT_EQ(carried.size(), 0U);                      // NOLINT(bugprone-use-after-move)
+  EXPECT_THROW((void)carried.shares(0), InputError);  // NOLINT(bugprone-use-after-move)
+}
+
 }  // namespace carried_surface_test

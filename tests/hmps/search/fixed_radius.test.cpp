@@ -194,4 +194,13 @@ TEST(NeighbourList, RefusesAParticleThatDoesNotExist) {
   EXPECT_THROW((void)list[2], hmps::InputError);
 }
 
+TEST(NeighbourList, IsEmptyAfterAMove) {
+  const std::vector<hmps::Vector<double, 2>> points{{0, 0}, {1, 0}};
+  auto list = hmps::find_neighbours(hmps::vectors(points), 1.5);
+  const auto moved = std::move(list);
+  EXPECT_EQ(moved.size(), 2U);
+  EXPECT_EQ(list.size(), 0U);                     // NOLINT(bugprone-use-after-move)
+  EXPECT_THROW((void)list[0], hmps::InputError);  // NOLINT(bugprone-use-after-move)
+}
+
 }  // namespace fixed_radius_test

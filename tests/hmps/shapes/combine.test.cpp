@@ -141,6 +141,10 @@ TEST(CombineMisuse, IsRefused) {
   using V = Vector<double, 3>;
   auto ball = [](const V& x) { return x.norm() - 1; };
   EXPECT_THROW((void)hmps::unite_all(std::vector<decltype(ball)>{}), hmps::InputError);
+  auto list = hmps::unite_all(std::vector{ball});
+  const auto moved = std::move(list);
+  EXPECT_FALSE(std::isnan(moved(V::Zero())));
+  EXPECT_TRUE(std::isnan(list(V::Zero())));  // NOLINT(bugprone-use-after-move)
   EXPECT_THROW((void)hmps::layer(ball, 0.2, -0.2), hmps::InputError);
   EXPECT_THROW((void)hmps::shell(ball, -0.2), hmps::InputError);
   for (const double radius : {-0.1, std::numeric_limits<double>::quiet_NaN()})

@@ -86,6 +86,10 @@ TYPED_TEST(Implicit, HalfSpaceTakesANormalOfAnyLength) {
   const hmps::HalfSpace<S, D> half{.point = Vector<S, D>::Unit(0), .outward = S(7) * Vector<S, D>::Unit(0)};
   EXPECT_NEAR(half(Vector<S, D>::Zero()), S(-1), tolerance<S>);
   EXPECT_NEAR(half(Vector<S, D>(S(3) * Vector<S, D>::Unit(0))), S(2), tolerance<S>);
+  for (const S length : {std::numeric_limits<S>::denorm_min(), std::numeric_limits<S>::max()}) {
+    const hmps::HalfSpace<S, D> same{.point = Vector<S, D>::Unit(0), .outward = length * Vector<S, D>::Unit(0)};
+    EXPECT_EQ(same(Vector<S, D>::Zero()), S(-1)) << length;
+  }
 }
 
 TYPED_TEST(Implicit, CapsuleAndRoundConeAreTheDistanceToTheirBalls) {

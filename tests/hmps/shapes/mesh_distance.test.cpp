@@ -13,6 +13,8 @@
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/combine.hpp"
+#include "hmps/shapes/implicit.hpp"
+#include "hmps/shapes/isosurface.hpp"
 #include "surfaces.hpp"
 
 namespace mesh_distance_test {
@@ -63,6 +65,16 @@ TYPED_TEST(MeshDistance, FillsAndRaisesAsShapesDo) {
   const auto half = hmps::intersect(shape, hmps::HalfSpace<S, 3>{V::Zero(), V(0, 0, 1)});
   EXPECT_LT(half(V(0, 0, S(-0.005))), 0);
   EXPECT_GT(half(V(0, 0, S(0.005))), 0);
+}
+
+TEST(MeshDistance, CanBeCalledAfterAMove) {
+  using V = hmps::Vector<double, 3>;
+  const hmps::Box<double, 3> box{V(-1, -1, -1), V(1, 1, 1)};
+  hmps::MeshDistance<double> first(hmps::isosurface(hmps::Ball<double, 3>{.radius = 0.5}, box, 0.25));
+  const double before = first(V(0, 0, 0));
+  const auto second = std::move(first);
+  EXPECT_EQ(second(V(0, 0, 0)), before);
+  EXPECT_EQ(first(V(0, 0, 0)), before);  // NOLINT(bugprone-use-after-move)
 }
 
 }  // namespace mesh_distance_test

@@ -107,4 +107,13 @@ TEST(Redistanced, LetsAnyShapeBeFitted) {
   }
 }
 
+TEST(Redistanced, CanBeCalledAfterAMove) {
+  const hmps::Box<double, 3> box{V(-1, -1, -1), V(1, 1, 1)};
+  auto first = redistanced(hmps::Ball<double, 3>{.radius = 0.5}, box, 0.25);
+  const double before = first(V(0, 0, 0));
+  const auto second = std::move(first);
+  EXPECT_EQ(second(V(0, 0, 0)), before);
+  EXPECT_EQ(first(V(0, 0, 0)), before);  // NOLINT(bugprone-use-after-move)
+}
+
 }  // namespace redistanced_test

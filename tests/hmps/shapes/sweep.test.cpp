@@ -112,6 +112,8 @@ TYPED_TEST(Sweep, RefusesRowsThatMakeNoShape) {
   EXPECT_THROW(hmps::Plate<S>({row, {V(0, 1, 1), S(1), S(0.1), S(0)}}), hmps::InputError);
   EXPECT_THROW(hmps::Plate<S>({row, {V(0, 0, 1), S(1), S(0), S(0)}}), hmps::InputError);
   EXPECT_THROW(hmps::Plate<S>({row, {V(0, 0, 1), S(1), S(1), S(0)}}, V(0, 0, 0)), hmps::InputError);
+  for (const S length : {std::numeric_limits<S>::denorm_min(), std::numeric_limits<S>::max()})
+    EXPECT_NO_THROW(hmps::Plate<S>({row, {V(0, 0, 1), S(1), S(1), S(0)}}, V(0, length, 0))) << length;
 }
 
 TEST(Superellipse, IsNotANumberWithoutPositiveAxesAndAnExponentOfOne) {
@@ -119,6 +121,26 @@ TEST(Superellipse, IsNotANumberWithoutPositiveAxesAndAnExponentOfOne) {
   EXPECT_TRUE(std::isnan(hmps::superellipse(1.0, 0.0, -4.0, 2.0, 2.0)));
   EXPECT_TRUE(std::isnan(hmps::superellipse(1.0, 0.0, 4.0, 0.0, 2.0)));
   EXPECT_TRUE(std::isnan(hmps::superellipse(1.0, 0.0, 4.0, 2.0, 0.5)));
+}
+
+TYPED_TEST(Sweep, IsNotANumberAfterAMove) {
+  using S = TypeParam;
+  using V = Vector<S, 3>;
+  using V2 = Vector<S, 2>;
+  hmps::Tube<S, 3> tube({{V(0, 0, 0), S(1)}});
+  hmps::Stack<S> stack({{S(0), V2(0, 0), V2(1, 1)}, {S(1), V2(0, 0), V2(1, 1)}});
+  hmps::Plate<S> plate({{V(0, 0, 0), S(1), S(0.1), S(0)}, {V(0, 0, 1), S(1), S(0.1), S(0)}});
+  const V x(0, 0, S(0.5));
+  const auto expect_usable_only_where_it_went = [&](auto& shape) {
+    const auto moved = std::move(shape);
+    EXPECT_LT(moved(x), S(0));
+    EXPECT_TRUE(std::isnan(shape(x)));  // NOLINT(bugprone-use-after-move)
+  };
+  expect_usable_only_where_it_went(tube);
+  expect_usable_only_where_it_went(stack);
+  expect_usable_only_where_it_went(plate);
+  EXPECT_THROW((void)stack.section(S(0)), hmps::InputError);  // NOLINT(bugprone-use-after-move)
+  EXPECT_THROW((void)plate.arc(x), hmps::InputError);         // NOLINT(bugprone-use-after-move)
 }
 
 }  // namespace sweep_test
