@@ -72,11 +72,12 @@ struct FittedParticles {
 ///                  parts must overlap, because there is a surface between parts that only touch
 /// @param box       in m, tight or not; its faces cut the shape
 /// @param spacing   l0 in m
-/// Throws `InputError` for a spacing that is not positive, a box that is empty, too large or not finite, bad settings,
-/// a shape that is NaN (with the position) or no distance at a quarter of its surface, a shape without volume in the
-/// box, a body in which no particle has enough support, and, with the position, a part of the body that is thinner than
-/// `least_layers` layers of `thinnest_spacing` and reaches further than `longest_edge` beyond the particles, or one
-/// that is connected to no particle. Thin edges up to that length are left to the nearest particles.
+/// Throws `InputError` for a spacing that is not positive or that rounding to `S` does not resolve to a hundredth, a
+/// box that is empty, too large or not finite, bad settings, a shape that is NaN (with the position) or no distance at
+/// a quarter of its surface, a shape without volume in the box, a body in which no particle has enough support, and,
+/// with the position, a part of the body that is thinner than `least_layers` layers of `thinnest_spacing` and reaches
+/// further than `longest_edge` beyond the particles, or one that is connected to no particle. Thin edges up to that
+/// length are left to the nearest particles.
 template <class F, class S, int D, Executor E = Serial>
 requires Shape<F, S, D>
 [[nodiscard]] FittedParticles<S, D> fit_particles(const F& shape, const Box<S, D>& box, std::type_identity_t<S> spacing,

@@ -14,6 +14,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/search/resolution.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -38,13 +39,18 @@ struct LatticeSites {
 /// units.
 inline constexpr double most_sites = 8589934592.0;
 
+/// The largest coordinate in m, in magnitude, that a lattice is computed from.
+template <class S, int D>
+[[nodiscard]] double largest_coordinate(const Box<S, D>& box, const Vector<S, D>& origin) {
+  return static_cast<double>(
+      std::max({box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff(), origin.cwiseAbs().maxCoeff()}));
+}
+
 /// Bound in m, with a margin, for how far rounding to `S` can shift a site relative to a face of `box`: corners, origin
 /// and spacing are each off by at most half a unit in the last place.
 template <class S, int D>
 [[nodiscard]] double coordinate_rounding(const Box<S, D>& box, const Vector<S, D>& origin) {
-  const S largest =
-      std::max({box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff(), origin.cwiseAbs().maxCoeff()});
-  return 8 * static_cast<double>(std::numeric_limits<S>::epsilon()) * static_cast<double>(largest);
+  return 8 * static_cast<double>(std::numeric_limits<S>::epsilon()) * largest_coordinate<S, D>(box, origin);
 }
 
 /// The distance in m from the surface within which a site counts as lying on it.
@@ -106,7 +112,7 @@ template <class S, int D>
   sites.spacing = static_cast<double>(spacing);
   sites.origin = origin.template cast<double>();
   // A box that ends on a site should contain it, whichever way its coordinates were rounded.
-  const double slack = std::max(1e-5, coordinate_rounding<S, D>(box, origin) / sites.spacing);
+  const double slack = std::clamp(coordinate_rounding<S, D>(box, origin) / sites.spacing, 1e-5, 8 * resolved_share);
   double product = 1;
   for (int c = 0; c < D; ++c) {
     const double low = std::ceil((static_cast<double>(box.lower[c]) - sites.origin[c]) / sites.spacing - slack);
@@ -119,6 +125,8 @@ template <class S, int D>
     sites.first[c] = static_cast<std::int64_t>(low);
     sites.count[c] = static_cast<std::int64_t>(std::max(high - low + 1, 0.0));
   }
+  require_resolution<S>(largest_coordinate<S, D>(box, origin), sites.spacing, resolved_share,
+                        "the box to fill or the origin of its lattice lies");
   return sites;
 }
 
@@ -146,12 +154,13 @@ template <class S, int D, Executor E>
 ///
 /// Sites on the surface, up to rounding, count as inside on its lower sides: where the distance is below 1e-9 spacings,
 /// or a few units in the last place of the coordinates, the shape is evaluated slightly further along x, y and z. A box
-/// of n spacings therefore holds n sites per direction whatever the origin, also in float, and adjacent shapes have no
-/// gap. A shape that only tells inside from outside, without a distance, decides for itself where its surface belongs.
+/// of n spacings therefore holds n sites per direction whatever the origin, also in float where that resolves the
+/// spacing, and adjacent shapes have no gap. A shape that only tells inside from outside, without a distance, decides
+/// for itself where its surface belongs.
 ///
 /// `spacing` in metres; faces of the box need not lie on sites. Throws `InputError` for a spacing that is not positive,
-/// a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, and a shape that returns NaN, with the
-/// position.
+/// a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, a shape that returns NaN, with the
+/// position, and where rounding to `S` exceeds a hundredth of the spacing, as in float at 100 m with 1 mm.
 template <class F, class S, int D, Executor E = Serial>
 requires Shape<F, S, D>
 [[nodiscard]] std::vector<Vector<S, D>> fill_lattice(

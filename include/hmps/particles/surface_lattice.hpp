@@ -123,8 +123,8 @@ template <class S>
 /// another is a hole. Sites on the lower sides of the surface are inside, so that a box of n spacings holds n sites per
 /// direction whatever the origin.
 ///
-/// Throws `InputError` as `require_closed` does, for a spacing that is not positive, for too many sites, and for a
-/// spacing larger than the surface.
+/// Throws `InputError` as `require_closed` does, for a spacing that is not positive, for too many sites, for a
+/// spacing larger than the surface, and for one that rounding to `S` does not resolve to a hundredth.
 template <class S, Executor E = Serial>
 [[nodiscard]] std::vector<Vector<S, 3>> fill_lattice(
     const SurfaceMesh<S>& mesh, std::type_identity_t<S> spacing,

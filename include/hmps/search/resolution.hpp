@@ -11,17 +11,27 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
+/// The share of a spacing that positions must resolve. If they do not, small motions are rounded away.
+inline constexpr double resolved_share = 0.01;
+
+/// Throws `InputError` if the scalar `S` is too coarse to resolve a `share` of the `spacing` (m) at a `coordinate` (m).
+/// `where` begins the message, such as "particle 3 lies".
+template <class S, class... Where>
+void require_resolution(double coordinate, double spacing, double share, const Where&... where) {
+  const double rounding = static_cast<double>(std::numeric_limits<S>::epsilon()) * std::abs(coordinate);
+  require(rounding <= share * spacing, "hmps: ", where..., " at ", coordinate, " m, where numbers of ", 8 * sizeof(S),
+          " bits are rounded to about ", rounding, " m and do not resolve ", share, " of the spacing of ", spacing,
+          " m; take positions in double, or an origin near the body");
+}
+
 /// Throws `InputError` if the scalar type of `points` (m) is too coarse to resolve a `share` of the `spacing` (m) at
-/// their distance from the origin. If it resolves only more than a hundredth, small motions are rounded away.
+/// their distance from the origin.
 template <class T, int D>
-void require_resolved(const VectorView<T, D>& points, double spacing, double share = 0.01) {
-  using S = typename VectorView<T, D>::Scalar;
-  const double furthest = share * spacing / static_cast<double>(std::numeric_limits<S>::epsilon());
+void require_resolved(const VectorView<T, D>& points, double spacing, double share = resolved_share) {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int c = 0; c < D; ++c)
-      require(std::abs(static_cast<double>(points(i, c))) <= furthest, "hmps: particle ", i, " lies at ", points(i, c),
-              " m, where its scalar type does not resolve ", share, " of the spacing of ", spacing,
-              " m; take positions in double, or an origin near the body");
+      require_resolution<typename VectorView<T, D>::Scalar>(static_cast<double>(points(i, c)), spacing, share,
+                                                            "particle ", i, " lies");
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -15,6 +15,7 @@
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/search/resolution.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
@@ -42,6 +43,8 @@ class IsosurfaceMaker {
               " m along an axis of an isosurface are too many; give wider cells, or a box in metres");
       nodes_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(cells) + 1;
     }
+    require_resolution<S>(static_cast<double>(box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff()),
+                          static_cast<double>(cell), resolved_share, "the box of an isosurface reaches to a corner");
     const std::size_t plane = nodes_[0] * nodes_[1];
     below_.resize(plane), above_.resize(plane);
     for (Edges* edges : {&lower_, &upper_}) edges->assign(edge_kinds * plane, no_index);
@@ -197,8 +200,9 @@ class IsosurfaceMaker {
 /// @param shape  negative inside; called from several threads if `execute` has them
 /// @param box    in m; its faces cut the shape, and close the surface there
 /// @param cell   width of the cells in m
-/// Throws `InputError` for a box without volume, a width that is not positive, more than 5000 cells along an axis, a
-/// shape that is NaN (with the position), and a shape without surface in the box.
+/// Throws `InputError` for a box without volume, a width that is not positive or that rounding to `S` does not resolve
+/// to a hundredth, more than 5000 cells along an axis, a shape that is NaN (with the position), and a shape without
+/// surface in the box.
 template <class F, class S, Executor E = Serial>
 requires Shape<F, S, 3>
 [[nodiscard]] SurfaceMesh<S> isosurface(const F& shape, const Box<S, 3>& box, std::type_identity_t<S> cell,

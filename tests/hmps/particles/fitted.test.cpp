@@ -438,4 +438,18 @@ TEST(FitParticles, RefusesWhatCannotBeFitted) {
   EXPECT_TRUE(starts(text, "hmps: the body is about 0.8 m thick at (")) << text;
 }
 
+TEST(FitParticlesMisuse, IsRefusedWhereItsScalarDoesNotResolveTheSpacing) {
+  using P = hmps::Vector<float, 3>;
+  const float spacing = 1e-3f;
+  const auto fit_at = [&](float place) {
+    const P middle = P::Constant(place), reach = P::Constant(5 * spacing);
+    return hmps::fit_particles([&](const P& x) { return (x - middle).norm() - 4 * spacing; },
+                               hmps::Box<float, 3>{P(middle - reach), P(middle + reach)}, spacing)
+        .size();
+  };
+  EXPECT_NEAR(static_cast<double>(fit_at(10)), static_cast<double>(fit_at(0)), 0.02 * static_cast<double>(fit_at(0)));
+  EXPECT_THROW((void)fit_at(1e3f), hmps::InputError);
+  EXPECT_THROW((void)fit_at(1e4f), hmps::InputError);
+}
+
 }  // namespace fitted_test

@@ -179,4 +179,27 @@ TYPED_TEST(Lattice, RefusesWhatCannotBeFilled) {
   }
 }
 
+/// The number of sites of a box of 10 mm with a corner at `corner` (m) in every direction; 0 if it is refused.
+template <class S>
+std::size_t sites_at(double corner) {
+  using V = Vector<S, 3>;
+  const V lower = V::Constant(static_cast<S>(corner));
+  try {
+    return hmps::fill_lattice(Box<S, 3>{lower, V(lower + V::Constant(S(0.01)))}, S(1e-3), lower).size();
+  } catch (const hmps::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("do not resolve 0.01 of the spacing of"), std::string::npos)
+        << error.what();
+    return 0;
+  }
+}
+
+TEST(LatticeMisuse, IsRefusedWhereItsScalarDoesNotResolveTheSpacing) {
+  for (const double corner : {0.0, 10.0, -50.0, 80.0}) EXPECT_EQ(sites_at<float>(corner), 1000U) << corner;
+  for (const double corner : {90.0, 1e3, -1e3, 1e4, 1e6, 1e9}) EXPECT_EQ(sites_at<float>(corner), 0U) << corner;
+  for (const double corner : {1e3, 1e6}) EXPECT_EQ(sites_at<double>(corner), 1000U) << corner;
+  // The origin of the lattice too is given in that scalar.
+  const Box<float, 2> box{Vector<float, 2>(0, 0), Vector<float, 2>(0.01f, 0.01f)};
+  EXPECT_THROW((void)hmps::fill_lattice(box, 1e-3f, Vector<float, 2>(1e4f, 0)), hmps::InputError);
+}
+
 }  // namespace lattice_test

@@ -12,6 +12,7 @@
 
 #include "../../reference/backwards.hpp"
 #include "../shapes/surfaces.hpp"
+#include "hmps/particles/open_surface_lattice.hpp"
 
 namespace surface_lattice_test {
 
@@ -118,6 +119,19 @@ TYPED_TEST(SurfaceLattice, RefusesOpenSurfacesAndSpacingsThatMakeNoSense) {
   // Millimetres taken for metres, in the spacing and in the surface.
   EXPECT_NE(message(S(1.2)).find("is 1 m large, less than one spacing of 1.2"), std::string::npos) << message(S(1.2));
   EXPECT_NE(message(S(1e-4)).find("read with a scale of 1e-3"), std::string::npos) << message(S(1e-4));
+}
+
+TEST(SurfaceLatticeMisuse, IsRefusedWhereItsScalarDoesNotResolveTheSpacing) {
+  const auto ball_at = [](float place) {
+    hmps::SurfaceMesh<float> mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (auto& x : mesh.vertices) x = x * 0.01f + hmps::Vector<float, 3>::Constant(place);
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    return mesh;
+  };
+  EXPECT_FALSE(hmps::fill_lattice(ball_at(10), 1e-3f).empty());
+  EXPECT_THROW((void)hmps::fill_lattice(ball_at(1000), 1e-3f), hmps::InputError);
+  EXPECT_THROW((void)hmps::fill_open_lattice(ball_at(1000), 1e-3f), hmps::InputError);
 }
 
 }  // namespace surface_lattice_test

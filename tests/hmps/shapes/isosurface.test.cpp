@@ -130,4 +130,15 @@ TEST(Isosurface, RefusesWhatItCannotCut) {
   EXPECT_NE(refused(broken, cube(1.2), 0.1).find("NaN at"), std::string::npos);
 }
 
+TEST(IsosurfaceMisuse, IsRefusedWhereItsScalarDoesNotResolveTheCells) {
+  using P = hmps::Vector<float, 3>;
+  const auto surface_at = [](float place) {
+    const P middle = P::Constant(place), reach = P::Constant(7e-3f);
+    return hmps::isosurface([&](const P& x) { return (x - middle).norm() - 6e-3f; },
+                            hmps::Box<float, 3>{P(middle - reach), P(middle + reach)}, 1e-3f);
+  };
+  EXPECT_NEAR(hmps::volume(surface_at(10)) / hmps::volume(surface_at(0)), 1, 0.01);
+  for (const float place : {100.0f, -1e3f, 1e4f}) EXPECT_THROW((void)surface_at(place), hmps::InputError) << place;
+}
+
 }  // namespace isosurface_test
