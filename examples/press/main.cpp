@@ -59,6 +59,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
   const auto force = [&](const auto& at, const auto& speed, const auto& density) {
     internal(at.part(0, n), speed.part(0, n), density.part(0, n));
     raised(at, F, hmps::vectors(seen));
+    // Without friction its step does not matter. With friction it should be about that of relax.
     contact.add(hmps::vectors(std::as_const(seen)), speed, F, density, 1e-6);
   };
 

@@ -8,6 +8,7 @@
 #include "hmps/analysis/lattice_shift.hpp"
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/relaxation.hpp"
+#include "hmps/analysis/relaxation_settings.hpp"
 #include "hmps/analysis/relaxing_body.hpp"
 #include "hmps/analysis/stable_step.hpp"
 #include "hmps/analysis/stable_step_settings.hpp"

@@ -29,9 +29,14 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// The equilibrium depends on neither time nor mass: `rho` may be the density of the material or any other density. A
 /// density per particle that is proportional to the local stiffness needs fewer iterations if stiff and soft parts are
-/// combined. Leave viscosity out: it slows the search and does not change the result. With friction the result depends
-/// on the path. If a load overshoots too far, apply it in increments and call `relax` for each. Starting close to the
-/// result saves most.
+/// combined. Leave viscosity out: it slows the search and does not change the result. If a load overshoots too far,
+/// apply it in increments and call `relax` for each. Starting close to the result saves most.
+///
+/// Contact of a fixed penalty coefficient, without friction and damping, may be given any step dt that its penalty
+/// allows. With friction, give it about the step that `relax` takes without (`Relaxation::step`), or half of that: it
+/// damps slip within dt, so that with a hundredth of the step the search takes a hundred times as long. With
+/// `SpringFriction` the result depends on the path, because friction carries a load at rest. With `CorrectedFriction`
+/// and `PaperFriction`, which resist only while something slips, the result is that without friction.
 ///
 /// @param force  `force(x, v, f)` writes force densities (N/m3), as for `stable_step`: the result of
 ///               `internal_force`, or a lambda that adds several forces and the load
@@ -77,7 +82,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
       detail::throw_not_finite(f, settings.load > 0 ? body.follows() : std::vector<char>(x.size(), 1),
                                result.iterations);
     result.load = carried;
-    result.residual = sums.moving > 0 ? sums.moving * body.volume() / carried : 0.0;
+    result.residual = body.residual(sums, carried, settings.load > 0 ? 0 : body.rounding(step.stiffness()));
     result.step = step.value();
     if (settings.progress) settings.progress(result);
 
@@ -92,7 +97,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
       ++result.peaks;
       continue;
     }
-    if (result.iterations >= settings.max_iterations) detail::throw_not_at_rest(result, settings);
+    if (result.iterations >= settings.max_iterations) detail::throw_not_at_rest(result, settings, step.damped());
     if (flown += sums.fastest * step.value(); flown > furthest) detail::throw_flown(result, flown);
     step.update(force, Read(x), VectorView<const V, D>(v), rho, sums.fastest, execute);
     const double kicked = at_rest ? step.value() / 2 : step.value();

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <string>
 #include <type_traits>
 #include <vector>
 
+#include "hmps/analysis/relaxation_settings.hpp"
 #include "hmps/analysis/stable_step.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/executor.hpp"
@@ -21,47 +20,7 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// The result of `relax`.
-struct Relaxation {
-  /// Unbalanced forces divided by the load: the sum of |f| l0^D over the particles that move, divided by
-  /// `RelaxationSettings::load`.
-  double residual = 0;
-  double load = 0;      ///< in N: as given, or the force on the particles that do not move
-  int iterations = 0;   ///< number of steps
-  int peaks = 0;        ///< number of kinetic energy peaks at which the body was stopped
-  double step = 0;      ///< the last step in s
-  int evaluations = 0;  ///< number of force evaluations, including those of `stable_step`
-};
-
-/// Settings of `relax`.
-struct RelaxationSettings {
-  double spacing = 0;       ///< particle spacing l0 in m, positive
-  double tolerance = 1e-3;  ///< residual at which the search ends; see `Relaxation::residual`
-  /// The load in N (in two dimensions N/m) with which the unbalanced forces are compared, such as the weight of the
-  /// body or the force that presses it. 0: the force on the particles that do not move, of which there must be some.
-  double load = 0;
-  int max_iterations = 100000;  ///< one force evaluation each
-  double step = 0;              ///< in s; 0: that of `stable_step`, updated as the body deforms
-  /// Whether particle i follows the forces; the others keep their positions. Empty: all particles follow.
-  std::function<bool(std::size_t)> moves = {};
-  /// Called after each force evaluation with the current result, for progress reports; may throw to stop the search.
-  /// Empty: not called.
-  std::function<void(const Relaxation&)> progress = {};
-};
-
 namespace detail {
-
-inline void validate(const RelaxationSettings& s) {
-  require(detail::is_finite(s.spacing) && s.spacing > 0, "hmps: the spacing of relax is ", s.spacing,
-          " m; give the particle spacing l0, with which force densities become forces");
-  require(detail::is_finite(s.tolerance) && s.tolerance > 0 && s.tolerance < 1, "hmps: the tolerance of relax is ",
-          s.tolerance, "; it must lie between 0 and 1, for example 1e-3");
-  require(detail::is_finite(s.load) && s.load >= 0, "hmps: the load of relax is ", s.load,
-          " N; give the force that acts, or 0 for the force on the particles that do not move");
-  require(s.max_iterations > 0, "hmps: relax may make ", s.max_iterations, " iterations; allow at least one");
-  require(detail::is_finite(s.step) && s.step >= 0, "hmps: the step of relax is ", s.step,
-          " s; it must be positive, or 0 for that of stable_step");
-}
 
 /// Sums over all particles at one time.
 struct Unbalanced {
@@ -88,6 +47,10 @@ class RelaxationStep {
   }
   [[nodiscard]] double value() const { return step_; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
+  /// The largest stiffness over density in 1/s2, as of the last search; 0 before the first, and with a fixed step.
+  [[nodiscard]] double stiffness() const { return stiffness_; }
+  /// Whether velocities limit the step more than stiffness does.
+  [[nodiscard]] bool damped() const { return damped_; }
 
   /// Updates the step for particles that move at up to `speed` (m/s).
   template <class Force, class X, class V, int D, class Rho, class E>
@@ -96,14 +59,29 @@ class RelaxationStep {
     left_ -= speed * step_;
     if (fixed_ || left_ > 0) return;
     search_.start = mode_;
-    StableStep found = stable_step(force, x, v, density, search_, execute);
-    evaluations_ += found.evaluations;
-    ++search_.seed;
-    require(detail::is_finite(found.step), "hmps: relax finds no stiffness in the force; give it a `step`");
+    StableStep found;
+    // The answer of friction depends on the trials before, which may lead a search astray. One from noise recovers.
+    for (int attempt = 0; attempt < 2 && !(found.step > 0); ++attempt) {
+      found = stable_step(force, x, v, density, search_, execute);
+      evaluations_ += found.evaluations;
+      ++search_.seed;
+      if (detail::is_finite(found.step)) break;
+      found.step = 0;
+      search_.start.clear();
+    }
+    if (!(found.step > 0)) {
+      require(step_ > 0,
+              "hmps: relax finds no stiffness in the force: displacements change it too little, or push it on; give "
+              "a `step`. With friction in the force, take that of `stable_step` for the force without friction");
+      left_ = path_ = shortest_;
+      return;
+    }
     const bool steady = std::abs(found.step - step_) < 0.02 * step_;
     path_ = steady ? std::min(2 * path_, 10 * shortest_) : shortest_;
     left_ = path_;
     step_ = found.step;
+    stiffness_ = found.omega * found.omega;
+    damped_ = found.damping > found.omega;
     mode_ = std::move(found.mode);
   }
 
@@ -113,6 +91,8 @@ class RelaxationStep {
   double step_;
   bool fixed_;
   double shortest_, path_ = 0, left_ = 0;  // m
+  double stiffness_ = 0;                   // 1/s2
+  bool damped_ = false;
   int evaluations_ = 0;
 };
 
@@ -157,24 +137,14 @@ template <class F, int D>
 [[noreturn]] void throw_not_finite(const VectorView<F, D>& f, const std::vector<char>& counts, int iteration) {
   std::size_t i = 0;
   while (i + 1 < f.size() && (!counts[i] || detail::is_finite(f[i].template cast<double>().sum()))) ++i;
-  throw StateError(message("hmps: iteration ", iteration, " of relax finds a force on particle ", i,
-                           " that is not finite, ", f[i].transpose(),
-                           iteration == 0
-                               ? " N/m3; are the positions those of the body, and do they come before the velocities?"
-                               : " N/m3; apply the load in parts, each relaxed before the next, or give a smaller "
-                                 "step; if det F reached zero, use the law as Continued{law}"));
-}
-
-[[noreturn]] inline void throw_flown(const Relaxation& result, double path) {
-  throw StateError(message("hmps: after ", result.iterations, " iterations of relax, particles have flown ", path,
-                           " m without stopping, ten times the size of the body: nothing holds it; does `moves` "
-                           "exclude the particles that are held, and does the load press it against something?"));
-}
-
-[[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings) {
-  throw StateError(message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
-                           result.residual, " of the load, ", result.load, " N; allow more max_iterations than ",
-                           settings.max_iterations, ", or a larger tolerance than ", settings.tolerance));
+  throw StateError(message(
+      "hmps: iteration ", iteration, " of relax finds a force on particle ", i, " that is not finite, ",
+      f[i].transpose(),
+      iteration == 0
+          ? " N/m3; do two particles coincide, has det F reached zero (then use the law as Continued{law}), are "
+            "the positions those of the body, and do they come before the velocities?"
+          : " N/m3; apply the load in parts, each relaxed before the next, or give a smaller "
+            "step; if det F reached zero, use the law as Continued{law}"));
 }
 
 /// The state that `relax` brings to rest, with the operations on all of its particles.
@@ -185,6 +155,14 @@ class RelaxingBody {
   RelaxingBody(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
                const RelaxationSettings& settings, const E& execute)
       : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
+    double outermost = 0, density = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      outermost = std::max(outermost, x[i].template cast<double>().cwiseAbs().maxCoeff());
+      density += static_cast<double>(at_particle(rho, i));
+    }
+    constexpr double of_position = std::numeric_limits<std::remove_const_t<X>>::epsilon();
+    constexpr double of_force = std::numeric_limits<F>::epsilon();
+    rounding_ = volume_ * density * (of_position * outermost + of_force * settings.spacing);
     for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = !settings.moves || settings.moves(i);
     const auto count = static_cast<std::size_t>(std::count(follows_.begin(), follows_.end(), char(1)));
     require(count > 0, "hmps: no particle of relax moves; `moves` must be true for some");
@@ -195,6 +173,15 @@ class RelaxingBody {
 
   /// Volume of a particle in m^D.
   [[nodiscard]] double volume() const { return volume_; }
+  /// About the sum of |f| l0^D in N that remains in a body without load: what rounding of its positions causes at a
+  /// `stiffness` over density (1/s2).
+  [[nodiscard]] double rounding(double stiffness) const { return stiffness * rounding_; }
+  /// The unbalanced forces over the `load` (N); 0 where all forces together are no more than `rounding` (N): then the
+  /// force on the held particles is rounding too, and no measure of the rest.
+  [[nodiscard]] double residual(const Unbalanced& sums, double load, double rounding) const {
+    const bool none = sums.moving == 0 || (sums.moving + sums.held) * volume_ <= rounding;
+    return none ? 0.0 : sums.moving * volume_ / load;
+  }
   /// Whether each particle follows the forces.
   [[nodiscard]] const std::vector<char>& follows() const { return follows_; }
 
@@ -251,6 +238,7 @@ class RelaxingBody {
   const Rho& rho_;
   const E& execute_;
   double volume_;
+  double rounding_ = 0;  // kg m, of all particles: rounding of a position times mass
   std::vector<char> follows_;
 };
 
