@@ -59,16 +59,16 @@ inline void validate(const RelaxationSettings& s) {
 }
 
 [[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings, bool damped) {
-  throw StateError(message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
-                           result.residual, " of the load, ", result.load, " N; allow more max_iterations than ",
-                           settings.max_iterations, ", or a larger tolerance than ", settings.tolerance,
-                           damped ? "; its step of " + message(result.step) +
-                                        " s is that of damping: leave viscosity out, and give a contact with friction "
-                                        "a longer dt, about the step of relax without friction"
-                                  : "",
-                           settings.load > 0 ? ""
-                                             : "; that load is what the held particles carry: if nothing loads "
-                                               "the body, it is rounding, so give a `load` to compare with"));
+  throw StateError(
+      message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
+              result.residual, " of the load, ", result.load, " N; allow more max_iterations than ",
+              settings.max_iterations, ", or a larger tolerance than ", settings.tolerance,
+              damped ? "; damping shortened its step: leave viscosity out, and give a contact with friction a longer "
+                       "dt, about the step of relax without friction"
+                     : "",
+              settings.load > 0 ? ""
+                                : "; that load is what the held particles carry: if nothing loads "
+                                  "the body, it is rounding, so give a `load` to compare with"));
 }
 
 }  // namespace detail

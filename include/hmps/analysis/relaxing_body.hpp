@@ -49,7 +49,7 @@ class RelaxationStep {
   [[nodiscard]] int evaluations() const { return evaluations_; }
   /// The largest stiffness over density in 1/s2, as of the last search; 0 before the first, and with a fixed step.
   [[nodiscard]] double stiffness() const { return stiffness_; }
-  /// Whether velocities limit the step more than stiffness does.
+  /// Whether velocities have limited the step more than stiffness at any time.
   [[nodiscard]] bool damped() const { return damped_; }
 
   /// Updates the step for particles that move at up to `speed` (m/s).
@@ -81,7 +81,7 @@ class RelaxationStep {
     left_ = path_;
     step_ = found.step;
     stiffness_ = found.omega * found.omega;
-    damped_ = found.damping > found.omega;
+    damped_ = damped_ || found.damping > found.omega;
     mode_ = std::move(found.mode);
   }
 
