@@ -35,8 +35,10 @@ namespace hmps::inline HMPS_ABI {
 /// Contact of a fixed penalty coefficient, without friction and damping, may be given any step dt that its penalty
 /// allows. With friction, give it about the step that `relax` takes without (`Relaxation::step`), or half of that: it
 /// damps slip within dt, so that with a hundredth of the step the search takes a hundred times as long. With
-/// `SpringFriction` the result depends on the path, because friction carries a load at rest. With `CorrectedFriction`
-/// and `PaperFriction`, which resist only while something slips, the result is that without friction.
+/// `SpringFriction` the result depends on the path, because friction carries a load at rest: between calls, move walls
+/// by less than the elastic slip at its limit, mu times the penetration, as they otherwise slide at once. With
+/// `CorrectedFriction` and `PaperFriction`, which resist only while something slips, the result is that without
+/// friction.
 ///
 /// @param force  `force(x, v, f)` writes force densities (N/m3), as for `stable_step`: the result of
 ///               `internal_force`, or a lambda that adds several forces and the load

@@ -12,11 +12,15 @@
 #include <vector>
 
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/contact/contact.hpp"
+#include "hmps/contact/spring_friction.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/laws/neo_hookean.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
+#include "hmps/terms/record.hpp"
 #include "hmps/terms/viscous.hpp"
 
 namespace relaxation_test {
@@ -318,6 +322,71 @@ std::string words_of(const std::function<void()>& call) {
   return "";
 }
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A block, held at its base, that a plate presses and then drags sideways.
+template <class Friction>
+struct Dragged {
+  static constexpr double press = 0.3 * l0, drag = 0.0025 * l0;  // less than the elastic slip at the limit
+  static constexpr int drags = 20;
+  Relaxation last;
+  double normal = 0, along = 0;  // what the plate bears, in N/m
+
+  /// The contact takes the step `dt`.
+  Dragged(double dt, double friction) {
+    std::vector<Vector<double, 2>> x;
+    for (int i = 0; i < 50; ++i) x.push_back(l0 * Vector<double, 2>(i % 10, i / 10));
+    for (int i = 0; i < 32; ++i) x.push_back(l0 * Vector<double, 2>(i % 16 - 3, 5 + i / 16));
+    const std::size_t n = 50;
+    std::vector<Vector<double, 2>> v(x.size(), Vector<double, 2>::Zero()), f = v;
+    std::vector<Matrix<double, 2>> gradient(x.size(), Matrix<double, 2>::Identity());
+    const auto F = matrices(gradient);
+    const LatticeBonds<double, 2> bonds(vectors(std::as_const(x)).part(0, n), {.spacing = l0});
+    auto internal = internal_force(bonds, elastic(NeoHookean<>::from_young_poisson(young, 0.3)), record(F.part(0, n)),
+                                   artificial(young));
+    MetaballContact<double, 2, SmoothMetaball, Friction> contact(
+        {.spacing = l0,
+         .density = density,
+         .friction = friction,
+         .stiffness = PenaltyStiffness::fixed(10 * young / (l0 * l0))});
+    std::vector<Index> skin, wall;
+    for (Index i = 40; i < n; ++i) skin.push_back(i);
+    for (Index i = n; i < x.size(); ++i) wall.push_back(i);
+    const auto block = contact.add_organ({"block", skin});
+    const auto plate = contact.add_organ({"plate", {}, wall, [](Index) { return true; }});
+    contact.add_pair(block, plate, {.roles = Roles::only_first_is_slave});
+    const auto force = [&](const auto& at, const auto& speed, const auto& out) {
+      internal(at.part(0, n), speed.part(0, n), out.part(0, n));
+      contact.add(at, speed, F, out, dt);
+    };
+    const RelaxationSettings settings{
+        .spacing = l0, .load = 0.05 * young * 10 * l0, .max_iterations = 5000, .moves = [](std::size_t i) {
+          return i >= 10 && i < 50;
+        }};
+    for (int k = 0; k <= drags; ++k) {
+      for (const Index i : wall) x[i] += k == 0 ? Vector<double, 2>(0, -press) : Vector<double, 2>(drag, 0);
+      last = relax(force, vectors(x), vectors(v), vectors(f), density, settings);
+    }
+    for (const Index i : wall) {
+      normal += f[i][1] * l0 * l0;
+      along -= f[i][0] * l0 * l0;
+    }
+  }
+};
+
+// Earlier, the documentation did not say that contact in relax needs about the step of relax.
+TEST(Relax, TakesFrictionThatIsGivenAboutItsOwnStep) {
+  const Dragged<CorrectedFriction> smooth(1e-6, 0);
+  const double dt = smooth.last.step / 2;
+  const Dragged<SpringFriction> sticking(dt, 0.5);
+  const Dragged<CorrectedFriction> creeping(dt, 0.5);
+  EXPECT_GT(sticking.along, creeping.along + 0.02 * sticking.normal);
+  EXPECT_LT(sticking.along, (1 + 1e-6) * 0.5 * sticking.normal);
+  // It resists only while something slips.
+  EXPECT_NEAR(creeping.along, smooth.along, 0.01 * smooth.normal);
+  EXPECT_NEAR(creeping.normal, smooth.normal, 0.01 * smooth.normal);
+  const std::string words = words_of([] { (void)Dragged<SpringFriction>(1e-6, 0.5); });
+  EXPECT_TRUE(has(words, "damping shortened its step")) << words;
+}
 
 TEST(Relax, SaysWhenItDoesNotConverge) {
   Standing<double, 2> body(column<2>(3, 6));
