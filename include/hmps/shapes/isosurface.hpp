@@ -44,7 +44,7 @@ class IsosurfaceMaker {
       nodes_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(cells) + 1;
     }
     require_resolution<S>(static_cast<double>(box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff()),
-                          static_cast<double>(cell), resolved_share, "the box of an isosurface reaches to a corner");
+                          static_cast<double>(cell), resolved_share, "a corner of the box of an isosurface lies");
     const std::size_t plane = nodes_[0] * nodes_[1];
     below_.resize(plane), above_.resize(plane);
     for (Edges* edges : {&lower_, &upper_}) edges->assign(edge_kinds * plane, no_index);
