@@ -10,9 +10,6 @@
 
 #include "hmps/core/abi.hpp"
 
-// Declared first, so that there is one `detail`, whichever header comes first.
-namespace hmps::inline HMPS_ABI::detail {}
-
 /// Particle mechanics for soft tissue by the Hamiltonian MPS method. SI units everywhere.
 namespace hmps {
 
