@@ -193,7 +193,9 @@ class IsosurfaceMaker {
 ///
 /// Vertices lie on the surface of the shape to a four-thousandth of a cell. Between them the isosurface is flat:
 /// right-angled edges are bevelled by 0.17 cells on average and 0.6 at most, corners by 0.7 at most, and a ball of
-/// radius R is cut short by 0.08 cell^2 / R on average and 0.4 at most. Parts thinner than a cell may be missed.
+/// radius R is cut short by 0.08 cell^2 / R on average and 0.4 at most. Parts thinner than a cell may be missed. A
+/// patch that ends at such an edge loses area, and a pressure on it as much of its force: the bore of a tube, 10 mm in
+/// radius and 12 mm long, 4, 3 and 1.4 % with cells of 1.25, 0.63 and 0.31 mm.
 ///
 /// The result is deterministic and does not depend on the executor.
 ///
