@@ -14,8 +14,8 @@ namespace hmps::inline HMPS_ABI::detail {
 template <int D>
 void require_cell_volume(double volume, double length, double most, const char* what, const char* edge) {
   const double share = volume / std::pow(length, D);
-  require(is_finite(share) && share < most && share * most > 1, "hmps: ", what, " is ", volume, " m", D, ", but ", edge,
-          " is ", length, " m long, and its cube has ", std::pow(length, D), " m", D,
+  require(is_finite(share) && share < most && share * most > 1, "hmps: ", what, " is ", volume, " m", D,
+          ", but the cube of ", edge, " of ", length, " m has ", std::pow(length, D), " m", D,
           "; give the volume of one particle, l0^", D, " on a lattice, and all lengths in metres");
 }
 /// How far the length of bonds may be from the spacing, as a factor of the volume.

@@ -110,7 +110,7 @@ class PatchPressure {
     require_positive(volume, x.size(), "volume", "m3");
     if (x.size() > 0)
       detail::require_cell_volume<3>(detail::mean_of(volume, x.size()), spacing_, detail::most_of_spacing,
-                                     "the mean `volume` given to PatchPressure::add", "its spacing");
+                                     "the `volume` of PatchPressure::add", "the spacing");
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());
     for (const auto& t : triangles_) {
