@@ -58,9 +58,10 @@ template <class T, int D>
   double largest = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (int c = 0; c < D; ++c) largest = std::max(largest, std::abs(static_cast<double>(x(i, c))));
-  constexpr double finest = std::numeric_limits<float>::denorm_min();
-  return largest > std::numeric_limits<float>::max() ||
-         std::max(largest * std::numeric_limits<float>::epsilon(), finest) / 2 > 1e-4 * typical_spacing(x);
+  using Single = std::numeric_limits<float>;
+  constexpr auto most = static_cast<double>(Single::max()), rounding = static_cast<double>(Single::epsilon()),
+                 finest = static_cast<double>(Single::denorm_min());
+  return largest > most || std::max(largest * rounding, finest) / 2 > 1e-4 * typical_spacing(x);
 }
 
 }  // namespace detail
