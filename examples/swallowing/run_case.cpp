@@ -91,7 +91,7 @@ class Run {
     if (before) resume(*before);
     for (const Sample& sample : history.series.samples()) measure(sample);
 
-    if (history.surfaces) (void)organs();  // not while the steps are timed
+    if (surfaces_) (void)organs();  // before the first step, so that an error costs no run and none of its time
     accounted_ = std::chrono::steady_clock::now();
     const auto first_step = simulation_.steps();
     Every sample(sample_interval), frame(options_.frame_interval), keep(checkpoint_interval), limit(limit_interval);

@@ -45,6 +45,14 @@ void state(double bad, const std::vector<V>& X) {
     hmps::detail::Grid<double, 3> grid;
     grid.build(x.size(), 1e-3, [&](std::size_t k) { return x[k]; });
   });
+  refuses("normal of a wall", bad, [&] {
+    auto gradients = F;
+    auto normals = rest;
+    normals[4][2] = bad;
+    hmps::impose_plane_stress(hmps::matrices(gradients), hmps::NeoHookean<>{3e4, 6e4}, hmps::vectors(normals));
+  });
+  refuses("shape of a wall", bad,
+          [&] { (void)hmps::wall_normals([&](const V&) { return bad; }, hmps::vectors(X), 1e-3); });
   refuses("weak particles", bad, [&] { (void)hmps::find_weak(hmps::vectors(x), {.spacing = 1e-3}); });
   refuses("prescribed motion", bad, [&] {
     const hmps::ControlRegion region({3}, hmps::vectors(X),

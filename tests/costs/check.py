@@ -28,7 +28,7 @@ SCENES = {
     "all_terms": "all three forces: elastic, stabiliser, viscous",
     "recorded": "all three, deformation gradients recorded",
     "viscous_alone": "viscous force alone",
-    "all_terms_float": "all three, kernels in float",
+    "all_terms_float": "all three, sweeps in float",
     "all_terms_2d": "all three, in two dimensions",
     "halves": "two bodies, all three, deformation gradients recorded, no contact",
     "halves_far": "the same, contact declared but out of reach",
@@ -98,9 +98,9 @@ def bounds(m):
         count("all_terms_2d") < count("all_terms") / 3)
     yield "in two dimensions, a particle takes less than two thirds of the memory", (
         size("all_terms_2d") < size("all_terms") * 2 / 3)
-    yield "kernels in float take less than two thirds of the instructions", (
+    yield "sweeps in float take less than two thirds of the instructions", (
         count("all_terms_float") < count("all_terms") * 2 / 3)
-    yield "kernels in float take less than two thirds of the memory", (
+    yield "sweeps in float take less than two thirds of the memory", (
         size("all_terms_float") < size("all_terms") * 2 / 3)
     yield "contact out of reach takes less than 60 instructions per particle", (
         count("halves_far") < count("halves") + 60)

@@ -33,12 +33,11 @@ namespace hmps::inline HMPS_ABI {
 /// apply it in increments and call `relax` for each. Starting close to the result saves most.
 ///
 /// Contact of a fixed penalty coefficient, without friction and damping, may be given any step dt that its penalty
-/// allows. With friction, give it about the step that `relax` takes without (`Relaxation::step`), or half of that: it
-/// damps slip within dt, so that with a hundredth of the step the search takes a hundred times as long. With
-/// `SpringFriction` the result depends on the path, because friction carries a load at rest: between calls, move walls
-/// by less than the elastic slip at its limit, mu times the penetration, as they otherwise slide at once. With
-/// `CorrectedFriction` and `PaperFriction`, which resist only while something slips, the result is that without
-/// friction.
+/// allows. With friction, give it about the step that `relax` takes without (`Relaxation::step`), or half of that:
+/// friction damps slip within dt, so that the search takes the longer the shorter dt is. With `SpringFriction` the
+/// result depends on the path, because friction carries a load at rest: between calls, move walls by less than the
+/// elastic slip at its limit, mu times the penetration, as they otherwise slide at once. With `CorrectedFriction` and
+/// `PaperFriction`, which resist only while something slips, the result is that without friction.
 ///
 /// @param force  `force(x, v, f)` writes force densities (N/m3), as for `stable_step`: the result of
 ///               `internal_force`, or a lambda that adds several forces and the load
@@ -84,7 +83,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
       detail::throw_not_finite(f, settings.load > 0 ? body.follows() : std::vector<char>(x.size(), 1),
                                result.iterations);
     result.load = carried;
-    result.residual = body.residual(sums, carried, settings.load > 0 ? 0 : body.rounding(step.stiffness()));
+    result.residual = sums.moving > 0 ? sums.moving * body.volume() / carried : 0.0;
     result.step = step.value();
     if (settings.progress) settings.progress(result);
 

@@ -13,7 +13,7 @@ namespace hmps::inline HMPS_ABI {
 /// The result of `relax`.
 struct Relaxation {
   /// Unbalanced forces divided by the load: the sum of |f| l0^D over the particles that move, divided by
-  /// `RelaxationSettings::load`. 0 also where no load is given and all forces have fallen to the rounding of positions.
+  /// `RelaxationSettings::load`.
   double residual = 0;
   double load = 0;      ///< in N: as given, or the force on the particles that do not move
   int iterations = 0;   ///< number of steps

@@ -47,8 +47,6 @@ class RelaxationStep {
   }
   [[nodiscard]] double value() const { return step_; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
-  /// The largest stiffness over density in 1/s2, as of the last search; 0 before the first, and with a fixed step.
-  [[nodiscard]] double stiffness() const { return stiffness_; }
   /// Whether velocities have limited the step more than stiffness at any time.
   [[nodiscard]] bool damped() const { return damped_; }
 
@@ -80,7 +78,6 @@ class RelaxationStep {
     path_ = steady ? std::min(2 * path_, 10 * shortest_) : shortest_;
     left_ = path_;
     step_ = found.step;
-    stiffness_ = found.omega * found.omega;
     damped_ = damped_ || found.damping > found.omega;
     mode_ = std::move(found.mode);
   }
@@ -91,7 +88,6 @@ class RelaxationStep {
   double step_;
   bool fixed_;
   double shortest_, path_ = 0, left_ = 0;  // m
-  double stiffness_ = 0;                   // 1/s2
   bool damped_ = false;
   int evaluations_ = 0;
 };
@@ -155,14 +151,6 @@ class RelaxingBody {
   RelaxingBody(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
                const RelaxationSettings& settings, const E& execute)
       : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
-    double outermost = 0, density = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      outermost = std::max(outermost, x[i].template cast<double>().cwiseAbs().maxCoeff());
-      density += static_cast<double>(at_particle(rho, i));
-    }
-    constexpr double of_position = std::numeric_limits<std::remove_const_t<X>>::epsilon();
-    constexpr double of_force = std::numeric_limits<F>::epsilon();
-    rounding_ = volume_ * density * (of_position * outermost + of_force * settings.spacing);
     for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = !settings.moves || settings.moves(i);
     const auto count = static_cast<std::size_t>(std::count(follows_.begin(), follows_.end(), char(1)));
     require(count > 0, "hmps: no particle of relax moves; `moves` must be true for some");
@@ -173,15 +161,6 @@ class RelaxingBody {
 
   /// Volume of a particle in m^D.
   [[nodiscard]] double volume() const { return volume_; }
-  /// About the sum of |f| l0^D in N that remains in a body without load: what rounding of its positions causes at a
-  /// `stiffness` over density (1/s2).
-  [[nodiscard]] double rounding(double stiffness) const { return stiffness * rounding_; }
-  /// The unbalanced forces over the `load` (N); 0 where all forces together are no more than `rounding` (N): then the
-  /// force on the held particles is rounding too, and no measure of the rest.
-  [[nodiscard]] double residual(const Unbalanced& sums, double load, double rounding) const {
-    const bool none = sums.moving == 0 || (sums.moving + sums.held) * volume_ <= rounding;
-    return none ? 0.0 : sums.moving * volume_ / load;
-  }
   /// Whether each particle follows the forces.
   [[nodiscard]] const std::vector<char>& follows() const { return follows_; }
 
@@ -238,7 +217,6 @@ class RelaxingBody {
   const Rho& rho_;
   const E& execute_;
   double volume_;
-  double rounding_ = 0;  // kg m, of all particles: rounding of a position times mass
   std::vector<char> follows_;
 };
 

@@ -205,7 +205,8 @@ class BondList : public Blocks<K, D> {
     });
   }
 
-  /// Stores the bonds for which `visit(i, keep)` calls `keep(j, r0, w)`; none may be longer than `reach` (m). Particles
+  /// Stores the bonds for which `visit(i, keep)` calls `keep(j, r0, w)`; none may be longer than `reach` (m). `spacing`
+  /// (m) is that of the particles. Particles
   /// without bonds are an error unless they may be `unbonded`.
   template <class Visit>
   void keep_bonds(double reach, double spacing, Visit&& visit, bool unbonded = false) {

@@ -105,7 +105,8 @@ class MetaballContact {
   /// positions of the latest call. Store it in a checkpoint, or before calls that only probe the force.
   [[nodiscard]] std::vector<double> history() const;
   /// Replaces the history by one that `history` returned for a contact with the same settings, organs and pairs in the
-  /// same order. The next call then gives the same bits as it would there. Throws `InputError` for any other numbers.
+  /// same order. The next call then gives the same bits as it would there, except in float if the organs have travelled
+  /// a thousand spacings since lists were built: see the class. Throws `InputError` for any other numbers.
   void restore_history(std::span<const double> history);
 
   [[nodiscard]] const ContactSettings& settings() const { return settings_; }
@@ -116,11 +117,11 @@ class MetaballContact {
   }
 
   /// Adds the contact force densities for the step `dt` (s) to `f`. Throws `InputError` for views of the wrong size, an
-  /// invalid step, a penalty that `S` cannot represent, organs without any pair, a spacing far below that of an organ's
-  /// particles at its first call, and if the deformation gradient of a particle of an organ is zero. Throws
-  /// `StateError` if a position or gradient, or the velocity of a particle near another organ, is not finite, or if
-  /// your own `PenaltyLaw` reaches k~ = 1. A particle whose gradient is singular but not zero, or that `S` cannot
-  /// invert, forms no wall.
+  /// invalid step, a penalty that `S` cannot represent, organs without any pair, organs too far apart for an `S` that
+  /// is narrower than the positions, a spacing far below that of an organ's particles at its first call, and if the
+  /// deformation gradient of a particle of an organ is zero. Throws `StateError` if a position or gradient, or the
+  /// velocity of a particle near another organ, is not finite, or if your own `PenaltyLaw` reaches k~ = 1. A particle
+  /// whose gradient is singular but not zero, or that `S` cannot invert, forms no wall.
   template <class X, class V, class M, class T, Executor E = Serial>
   ContactReport<S> add(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F,
                        const VectorView<T, D>& f, double dt, const E& execute = {}) {

@@ -105,7 +105,6 @@ class ParticleMotion {
   template <class X, class E>
   void update(const X& x, const std::vector<Index>& particle, const E& execute) {
     if (place_.size() != particle.size()) take_in(x, particle);
-    if (particle_.empty()) particle_ = particle;  // in the first call, or the first one after `restore`
     moved_.resize(particle.size());
     execute((particle.size() + chunk - 1) / chunk, [&](std::size_t q) {
       for (std::size_t n = q * chunk; n < std::min(particle.size(), (q + 1) * chunk); ++n) {
@@ -117,10 +116,12 @@ class ParticleMotion {
   }
   /// The positions in m of all particles at the latest call; none before the first.
   [[nodiscard]] const std::vector<Vector<double, D>>& places() const { return place_; }
-  /// Takes `places` as the positions at the latest call.
-  void restore(std::vector<Vector<double, D>> places) {
+  /// The particles of these, in order.
+  [[nodiscard]] const std::vector<Index>& particles() const { return particle_; }
+  /// Takes `places` as the positions of `particles`, in order, at the latest call.
+  void restore(std::vector<Index> particles, std::vector<Vector<double, D>> places) {
+    particle_ = std::move(particles);
     place_ = std::move(places);
-    particle_.clear();
   }
   /// The displacement in m of an active particle.
   [[nodiscard]] const Quad<S>& moved(std::size_t awake) const { return moved_[number_[awake]]; }

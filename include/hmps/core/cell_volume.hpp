@@ -19,8 +19,8 @@ void require_cell_volume(double volume, double length, double most, const char* 
           "; give the volume of one particle, l0^", D, " on a lattice, and all lengths in metres");
 }
 /// How far the length of bonds may be from the spacing, as a factor of the volume.
-inline constexpr double most_of_bonds = 100;
+inline constexpr double volume_factor_of_bonds = 100;
 /// How far the mean volume of irregular particles may be from the cube of the spacing, as a factor.
-inline constexpr double most_of_spacing = 8;
+inline constexpr double volume_factor_of_spacing = 8;
 
 }  // namespace hmps::inline HMPS_ABI::detail

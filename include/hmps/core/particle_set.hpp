@@ -41,7 +41,7 @@ class ParticleSet {
 
   /// Whether particle `i` belongs to the set; false if it is out of range.
   [[nodiscard]] bool operator()(std::size_t i) const { return i < member_.size() && member_[i] != 0; }
-  /// The same.
+  /// The same, as standard sets have it.
   [[nodiscard]] bool contains(std::size_t i) const { return (*this)(i); }
   /// The particles of the set, in order.
   [[nodiscard]] const std::vector<Index>& indices() const { return indices_; }

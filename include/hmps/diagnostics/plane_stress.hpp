@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -49,20 +49,20 @@ class StressAcross {
   double area_;  ///< of the wall, current over reference
 };
 
-/// The s at which there is no stress across the wall; NaN if there is none in between a hundredth and a hundred times
-/// the reference volume.
+/// The s at which there is no stress across the wall, if there is one between a hundredth and a hundred times the
+/// reference volume.
 template <class Law, int D>
-[[nodiscard]] double without_stress(const StressAcross<Law, D>& stress) {
+[[nodiscard]] std::optional<double> without_stress(const StressAcross<Law, D>& stress) {
   // A bracket around s, from the volume at which most laws have no pressure.
   double low = stress.at_volume(1), high = low, J = 1;
   double at_low = stress(low), at_high = at_low;
   while (at_low > 0 && J > 0.01) at_low = stress(low = stress.at_volume(J *= 0.9));
   for (J = 1; at_high < 0 && J < 100;) at_high = stress(high = stress.at_volume(J *= 1.1));
-  if (!(at_low <= 0 && at_high >= 0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!is_finite(at_low) || !is_finite(at_high) || at_low > 0 || at_high < 0) return std::nullopt;
   // False position; an end that stays twice counts for half (Dowell and Jarratt 1971, "Illinois").
   int stayed = 0;
   double s = low;
-  for (int k = 0; k < 200 && at_low < at_high; ++k) {
+  for (int k = 0; k < 200 && at_low < at_high && is_finite(s); ++k) {
     const double before = s;
     s = (low * at_high - high * at_low) / (at_high - at_low);
     const double at = stress(s);
@@ -79,7 +79,7 @@ template <class Law, int D>
       stayed = -1;
     }
   }
-  return s;
+  return is_finite(s) ? std::optional(s) : std::nullopt;
 }
 
 }  // namespace detail
@@ -95,6 +95,8 @@ template <class Law, int D>
 /// the number for which n . P(F) N = 0 with P by \paper{7}. What F says of the faces and of shear across the wall
 /// stays; the stretch across the wall, which particles of few layers do not determine, follows from the law. So does
 /// det F: give the law with the whole bulk modulus of the tissue, not the share that `thin_wall_stabiliser` leaves it.
+///
+/// In two dimensions the strain across the plane stays zero, as laws have it there; only the wall in the plane is free.
 ///
 /// The condition is right where nothing presses on the wall, or little compared with the stress along it, and wrong
 /// where a wall is held, meets another one, or is not thin. docs/fitted.md compares stresses.
@@ -118,20 +120,26 @@ void impose_plane_stress(const MatrixView<T, D>& F, const Material& material, co
   require_apart(F, "deformation gradients", normals, "normals");
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double length = normals[i].template cast<double>().norm();
-    detail::require(length == 0 || std::abs(length - 1) < 1e-3, "hmps: the normal of particle ", i, " has the length ",
-                    length, "; give unit vectors, and zero where there is no wall");
+    detail::require(detail::is_finite(length) && (length == 0 || std::abs(length - 1) < 1e-3),
+                    "hmps: the normal of particle ", i, " has the length ", length,
+                    "; give unit vectors, and zero where there is no wall");
   }
   std::vector<Matrix<double, D>> across(F.size());
+  std::vector<char> failed(F.size(), 0);
   execute(F.size(), [&](std::size_t i) {
     const Vector<double, D> normal = normals[i].template cast<double>();
     across[i] = F[i].template cast<double>();
     if (normal.isZero(0)) return;
     const auto law = detail::value_at(material, OneParticle{i});
     const detail::StressAcross stress(law, across[i], Vector<double, D>(normal.normalized()));
-    across[i] = stress.gradient(detail::without_stress(stress));
+    const std::optional<double> stretch = detail::without_stress(stress);
+    if (stretch)
+      across[i] = stress.gradient(*stretch);
+    else
+      failed[i] = 1;
   });
   for (std::size_t i = 0; i < F.size(); ++i)
-    if (!detail::is_finite(across[i].sum()))
+    if (failed[i])
       throw StateError(detail::message("hmps: no stretch of the wall across itself leaves particle ", i,
                                        " without stress there; its determinant is ",
                                        determinant(Matrix<double, D>(F[i].template cast<double>())),

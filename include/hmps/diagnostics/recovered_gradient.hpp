@@ -72,8 +72,8 @@ class QuadraticFit {
 /// Derivatives across a face hardly change: on a lattice, where the neighbours of an outer particle lie in two layers,
 /// the square of their depth is proportional to their depth, and what neighbours cannot tell apart counts as linear.
 /// The same holds along edges and in corners. So det F is no better than that of \paper{11}, nor is a pressure computed
-/// from it: in thin walls, `impose_plane_stress` mends both. Noise of the positions is up to 2.8 times as large in the
-/// mean square over a body. It is not the F from which forces derive. docs/fitted.md compares stresses.
+/// from it: in thin walls, `impose_plane_stress` corrects both. Noise of the positions is up to 2.8 times as large in
+/// the mean square over a body. It is not the F from which forces derive. docs/fitted.md compares stresses.
 ///
 /// Throws `InputError` for views of the wrong size. A particle without bonds has F = 1.
 template <Bonds B, class X, class T, int D = B::dimension, Executor E = Serial>

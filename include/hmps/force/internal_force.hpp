@@ -175,7 +175,7 @@ class InternalForce {
   /// Throws `InputError` for a volume that cannot be that of a particle with these bonds, such as a length in its
   /// place.
   static void require_volume(const B& bonds, double volume) {
-    detail::require_cell_volume<D>(volume, std::sqrt(bonds.standard_lambda()), detail::most_of_bonds,
+    detail::require_cell_volume<D>(volume, std::sqrt(bonds.standard_lambda()), detail::volume_factor_of_bonds,
                                    "the volume of a particle", "a bond");
   }
   /// The scales of the mean dilatation; null if no term has one.

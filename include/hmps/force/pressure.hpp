@@ -34,8 +34,8 @@ namespace hmps::inline HMPS_ABI {
 /// to the area of the face. A particle near an edge has the areas of both faces. In a wall of fewer than four layers
 /// the areas of its two faces fall on the same particles and cancel partly or completely: use `PatchPressure` there.
 /// On fitted particles and other irregular clouds b_i does not quite vanish inside, and the forces on a closed surface
-/// do not quite sum to zero: by 2 to 4 % of the load for the hole of a ring in the plane with two to five loaded
-/// layers. A free body needs the mean force subtracted, or `PatchPressure`.
+/// do not quite sum to zero: by 2 to 4 % of the load for the hole of a ring in the plane with two to five loaded layers
+/// (a program that was not kept). A free body needs the mean force subtracted, or `PatchPressure`.
 template <int D>
 class Pressure {
  public:
@@ -86,8 +86,8 @@ class Pressure {
   /// each has the volume `volume` (m^D): for a plane face its area along its normal, for a closed surface zero. Throws
   /// `InputError` for a volume that cannot be that of a particle with these bonds.
   [[nodiscard]] Vector<double, D> area(double volume) const {
-    detail::require_cell_volume<D>(volume, bond_, detail::most_of_bonds, "the volume of a particle under pressure",
-                                   "a bond");
+    detail::require_cell_volume<D>(volume, bond_, detail::volume_factor_of_bonds,
+                                   "the volume of a particle under pressure", "a bond");
     Vector<double, D> sum = Vector<double, D>::Zero();
     for (const auto& own : area_) sum += own * volume;
     return sum;

@@ -74,8 +74,8 @@ class Blocks : public detail::Anchored {
   /// Before displacements are rounded to `K`, the sweeps subtract the displacement of one particle in the middle of
   /// their order, `particle(size() / 2)`; for a piece without bonds to that particle which has moved further than
   /// `far_apart` from it, that of one of its own particles. After this call they subtract `common` (m) from all
-  /// instead, so that the parts of a body, each on its own machine, round as the whole does. Throws `InputError` if
-  /// `common` is not finite.
+  /// instead, so that the parts of a body, each on its own machine, round as the whole does as long as its pieces stay
+  /// together. Throws `InputError` if `common` is not finite.
   void subtract_displacement(const Vector<double, D>& common) {
     detail::require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
                     ") m; give finite numbers");

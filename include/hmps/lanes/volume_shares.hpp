@@ -27,7 +27,7 @@ template <int D, class V>
   double sum = 0;
   for (std::size_t i = 0; i < size; ++i) sum += shares[i] = static_cast<double>(volumes[i]) / cell;
   const double mean = size > 0 ? sum / static_cast<double>(size) : 1;
-  require_cell_volume<D>(mean * cell, l0, most_of_spacing, "the mean volume of the particles", "the spacing");
+  require_cell_volume<D>(mean * cell, l0, volume_factor_of_spacing, "the mean volume of the particles", "the spacing");
   constexpr double largest = 64;
   for (std::size_t i = 0; i < size; ++i)
     require(shares[i] < largest, "hmps: the volume of particle ", i, " is ", volumes[i], " m", D, ", ", shares[i],

@@ -32,7 +32,7 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 ///
 /// For half of a symmetric body, let the held layer lie on the plane of symmetry and give the bonds volumes, half of
 /// l0^D there: half a block of 20 spacings between plates then took 0.07 % less force than the whole block, and 4.4 %
-/// more with whole volumes.
+/// more with whole volumes (a program that was not kept).
 template <class V, int D>
 void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
   require_size(v, held.scene_size(), "velocities");

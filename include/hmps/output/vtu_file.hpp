@@ -202,8 +202,9 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
 ///     VtuSeries frames("results/press.pvd");                       // makes the folder
 ///     frames.add(t, x, {{vtk_field("velocity", v)}});              // writes results/press_00000.vtu, ...
 ///
-/// The collection is complete at any moment, so that a run can be watched while it goes on. Frames of an earlier run
-/// with the same name are overwritten one by one.
+/// Positions of a frame are in single or double precision, whichever it needs. The collection is complete at any
+/// moment, so that a run can be watched while it goes on. Frames of an earlier run with the same name are overwritten
+/// one by one.
 class VtuSeries {
  public:
   /// Begins the collection `path` (.pvd). Throws `InputError` if its folder cannot be made or written to, and for a

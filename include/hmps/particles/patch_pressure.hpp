@@ -109,7 +109,7 @@ class PatchPressure {
                     " Pa; give a finite number");
     require_positive(volume, x.size(), "volume", "m3");
     if (x.size() > 0)
-      detail::require_cell_volume<3>(detail::mean_of(volume, x.size()), spacing_, detail::most_of_spacing,
+      detail::require_cell_volume<3>(detail::mean_of(volume, x.size()), spacing_, detail::volume_factor_of_spacing,
                                      "the `volume` of PatchPressure::add", "the spacing");
     const std::vector<V> corner = corners(x);
     std::vector<V> force(corner.size(), V::Zero());

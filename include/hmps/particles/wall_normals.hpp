@@ -16,6 +16,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/core/view_checks.hpp"
 #include "hmps/particles/fitted.hpp"
+#include "hmps/search/resolution.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -41,6 +42,8 @@ template <class F, int D>
   }
   require(is_finite(squares.sum()), "hmps: the shape of a wall is NaN or infinite within half a spacing of (",
           x.transpose(), "); it must have a value at every particle");
+  require(squares.trace() > 0, "hmps: the shape of a wall does not change within half a spacing of (", x.transpose(),
+          "), so that it has no normal; give its signed distance, or redistanced(shape, box, spacing / 4)");
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>>(squares).eigenvectors().col(D - 1);
 }
 
@@ -52,7 +55,8 @@ template <class F, int D>
 /// @param shape      of the body, about its signed distance around the particles; of a mesh, `MeshDistance`
 /// @param positions  reference positions in m
 /// @param spacing    l0 in m
-/// Throws `InputError` for a spacing that is not positive, and, with the position, for a shape that is not finite.
+/// Throws `InputError` for a spacing that is not positive, and, with the position, for a shape that is not finite or
+/// does not change around a particle, and where the scalar type does not resolve a hundredth of the spacing.
 template <class F, class S, int D, Executor E = Serial>
 [[nodiscard]] auto wall_normals(const F& shape, const VectorView<S, D>& positions, double spacing,
                                 const E& execute = {}) {
@@ -60,7 +64,7 @@ template <class F, class S, int D, Executor E = Serial>
   static_assert(Shape<F, T, D>, "hmps: a shape is a callable that returns the signed distance at a position in m");
   static_assert(detail::RequireDistance<F, Vector<T, D>>::value);
   detail::require_spacing(spacing, "a wall");
-  require_view(positions, "positions");
+  detail::require_resolved(positions, spacing);
   std::vector<Vector<T, D>> normals(positions.size());
   const auto distance = [&shape](const Vector<double, D>& x) { return shape(Vector<T, D>(x.template cast<T>())); };
   execute(positions.size(), [&](std::size_t i) {
@@ -74,6 +78,8 @@ template <class F, class S, int D, Executor E = Serial>
 template <class F, class S, int D, Executor E = Serial>
 [[nodiscard]] std::vector<Vector<S, D>> wall_normals(const F& shape, const FittedParticles<S, D>& fitted,
                                                      std::type_identity_t<S> spacing, const E& execute = {}) {
+  detail::require(fitted.layers.size() == fitted.size(), "hmps: fitted particles have ", fitted.size(),
+                  " positions, but layers for ", fitted.layers.size(), "; give what fit_particles returned");
   auto normals = wall_normals(shape, vectors(fitted.positions), static_cast<double>(spacing), execute);
   for (std::size_t i = 0; i < normals.size(); ++i)
     if (fitted.layers[i] == 0) normals[i].setZero();

@@ -198,35 +198,29 @@ TYPED_TEST(RelaxOf, EveryExecutorGivesTheSameBits) {
   EXPECT_EQ(settle(Serial{}), settle(backwards));
 }
 
-// Earlier, the forces of a body without load, all of them rounding, were compared with one another for all permitted
-// iterations.
-TYPED_TEST(RelaxOf, EndsWhereNothingLoadsTheBody) {
-  using T = typename TypeParam::Scalar;
-  constexpr int D = TypeParam::D;
-  const double eps = std::numeric_limits<T>::epsilon();
-  for (const bool turned : {true, false}) {
-    Standing<T, D> body(column<D>(3, 4));
-    auto force = internal_force(body.bonds, elastic(MooneyRivlin<>::from_young(young, 1e5)), artificial(young));
-    for (std::size_t i = 0; i < body.position.size(); ++i) {
-      Vector<double, D> place = body.reference[i];
-      if (turned) {  // and shifted, which rounds the positions more coarsely
-        place[0] = 0.8 * body.reference[i][0] - 0.6 * body.reference[i][D - 1] + 0.5;
-        place[D - 1] = 0.6 * body.reference[i][0] + 0.8 * body.reference[i][D - 1] - 0.7;
-      } else if (body.moves()(i)) {
-        place[0] += 1e-2 * place[D - 1];
-      }
-      body.position[i] = place.template cast<T>();
-    }
-    const auto found = relax(force, body.x(), body.v(), body.f(), density,
-                             {.spacing = l0, .max_iterations = 5000, .moves = body.moves()});
-    EXPECT_EQ(found.residual, 0);
-    // What remains is what some roundings of positions make with a stiffness of about ten moduli over the spacing.
-    double unbalanced = 0;
-    for (const auto& f : body.load) unbalanced += f.template cast<double>().norm() * body.volume;
-    EXPECT_LT(unbalanced, static_cast<double>(body.load.size()) * 100 * 1e5 / (l0 * l0) * body.volume * eps);
-    for (std::size_t i = 0; i < body.position.size() && !turned; ++i)
-      EXPECT_LT((body.position[i].template cast<double>() - body.reference[i]).norm(), 1e4 * eps * l0) << i;
+// In float, the rounding of positions makes forces of the size of the weight. Relax may refuse such a body, but must
+// not call it at rest before it has sagged.
+TEST(Relax, DoesNotTakeTheWeightOfAFloatBodyForRounding) {
+  const Vector<double, 2> away(0.3, 0);  // where positions are rounded coarsely
+  const auto sag = [&]<class T>(T, const double load) {
+    Standing<T, 2> body(column<2>(5, 20));
+    auto force = internal_force(body.bonds, elastic(MooneyRivlin<>::from_moduli(2e6, 1e4)), artificial(young));
+    for (auto& place : body.position) place += away.template cast<T>();
+    (void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                {.spacing = l0, .load = load, .max_iterations = 20000, .moves = body.moves()});
+    double most = 0;
+    for (std::size_t i = 0; i < body.position.size(); ++i)
+      most = std::max(most, (body.position[i].template cast<double>() - away - body.reference[i]).norm());
+    return most;
+  };
+  const double expected = sag(0.0, Standing<double, 2>(column<2>(5, 20)).weight());
+  double found = expected;
+  try {
+    found = sag(0.F, 0);
+  } catch (const StateError& error) {
+    EXPECT_NE(std::string(error.what()).find("give a `load`"), std::string::npos) << error.what();
   }
+  EXPECT_NEAR(found, expected, 0.1 * expected);
 }
 
 /// Half of the column is a hundred times stiffer. Where density follows stiffness the waves are equally fast; the force
@@ -427,7 +421,6 @@ TEST(Relax, KeepsItsStepWhereASearchFindsNone) {
   update();
   const double before = step.value();
   EXPECT_NEAR(before, 0.9, 1e-6);
-  EXPECT_NEAR(step.stiffness(), 4, 1e-6);
   stiffness = -4;
   update();
   EXPECT_EQ(step.value(), before);

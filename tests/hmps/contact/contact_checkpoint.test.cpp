@@ -130,6 +130,35 @@ TEST(ContactMemory, SurvivesAnOrganThatIsAddedLater) {
   EXPECT_EQ(unused.all, late.all);
 }
 
+// The history is taken before the first call with the new organ, or restored before the organ is added.
+TEST(ContactMemory, SurvivesARestartBesideAnOrganThatIsAddedLater) {
+  for (const bool before : {true, false}) {
+    Dragged<double> scene;
+    const auto late = scene.add(hmps::Vector<int, 3>(3, 3, 3), Point(0.2, 0, 0), 1e-3);
+    const hmps::Organ organ{.name = "late", .slaves = late.bottom, .masters = late.lower};
+    auto contact = scene.contact(), resumed = scene.contact();
+    for (int step = 0; step < 3; ++step) {
+      scene.drag();
+      scene.friction(contact);
+    }
+    if (before) {
+      contact.add_organ(organ);
+      resumed.add_organ(organ);
+    }
+    resumed.restore_history(contact.history());
+    if (!before) {
+      contact.add_organ(organ);
+      resumed.add_organ(organ);
+    }
+    for (int step = 0; step < 3; ++step) {
+      scene.drag();
+      const double expected = scene.friction(contact);
+      EXPECT_EQ(scene.friction(resumed), expected) << before << step;
+      EXPECT_NE(expected, 0);
+    }
+  }
+}
+
 TEST(ContactMemory, GivesTheSameBitsAfterARestartFarFromTheOrigin) {
   Dragged<float> scene(5);
   auto contact = scene.contact();

@@ -71,6 +71,13 @@ TEST(WallNormals, RefuseWhatHasNoNormal) {
   const auto nan = [](const Point&) { return std::numeric_limits<double>::quiet_NaN(); };
   EXPECT_NE(message_of(normals(ball, -1)).find("the spacing"), std::string::npos);
   EXPECT_NE(message_of(normals(nan, 1)).find("NaN"), std::string::npos);
+  const auto sign = [](const Point& x) { return x.norm() < 2 ? -1.0 : 1.0; };
+  EXPECT_NE(message_of(normals(sign, 1)).find("redistanced"), std::string::npos);
+  const std::vector<hmps::Vector<float, 3>> far_away{{90, 0, 0}};
+  const auto of_float = [&] {
+    (void)hmps::wall_normals(hmps::Ball<float, 3>{.radius = 100}, hmps::vectors(far_away), 1e-3);
+  };
+  EXPECT_NE(message_of(of_float).find("not resolve"), std::string::npos);
 }
 
 }  // namespace wall_normals_test

@@ -64,7 +64,7 @@ class Candidates {
 
   /// From where positions are measured, in m.
   [[nodiscard]] const Vector<double, D>& origin() const { return particles_.origin(); }
-  /// Measures positions from `origin` (m) and builds the lists anew.
+  /// Measures positions from `origin` (m); if that is another one, the next call builds the lists anew.
   void restore_origin(const Vector<double, D>& origin) {
     built_ = built_ && origin == particles_.origin();
     particles_.restore_origin(origin);
