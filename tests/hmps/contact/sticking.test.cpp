@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bodies.hpp"
@@ -211,8 +212,16 @@ TEST(Sticking, RejectsWhatIsNoHistory) {
   fails(cut, "all of it and unchanged");
   other[1] += 1;
   fails(other, "add the same organs and pairs");
-  moved[5] = std::nan("");
-  fails(moved, "position 0 of the history has the component nan");
+  for (const auto& [number, with] : {std::pair{5, "the origin in number 5 of the history is nan"},
+                                     {6, "number 6 of the history is nan, which is not a particle"},
+                                     {7, "a position in number 7 of the history is nan"}}) {
+    moved = history;
+    moved[static_cast<std::size_t>(number)] = std::nan("");
+    fails(moved, with);
+  }
+  moved = history;
+  std::swap(moved[6], moved[10]);  // the first two particles
+  fails(moved, "not a particle above the one before");
   unsorted[history.size() - 7] = 0;  // the number of the last entry
   fails(unsorted, "all of it and unchanged");
   const hmps::ContactSettings settings{.spacing = l0, .density = density, .friction = 1};

@@ -386,9 +386,11 @@ TEST(InternalForce, RefusesAnEnergyOfVolumesThatAreNone) {
   const double l0 = scenes::Scene<3>::spacing;
   EXPECT_NO_THROW((void)force.energy(hmps::vectors(scene.x), l0 * l0 * l0));
   for (const double volume : {l0, l0 * l0, 1e9 * l0 * l0 * l0, 1e-3 * l0 * l0 * l0})
-    EXPECT_TRUE(has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), volume); }), "give l0^3")) << volume;
+    EXPECT_TRUE(has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), volume); }), "l0^3 on a lattice"))
+        << volume;
   const std::vector<double> in_mm3(scene.x.size(), 1e9 * l0 * l0 * l0);
-  EXPECT_TRUE(has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), hmps::scalars(in_mm3)); }), "give l0^3"));
+  EXPECT_TRUE(
+      has(error_of([&] { (void)force.energy(hmps::vectors(scene.x), hmps::scalars(in_mm3)); }), "l0^3 on a lattice"));
 }
 
 struct Bursting {
