@@ -69,8 +69,8 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::restore_history(std::span
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t first = head + width * n;
     const double particle = history[first];
-    detail::require(particle >= (n > 0 ? particles[n - 1] + 1.0 : 0.0) && particle < detail::no_index &&
-                        particle == std::floor(particle),
+    detail::require(detail::is_finite(particle) && particle >= (n > 0 ? particles[n - 1] + 1.0 : 0.0) &&
+                        particle < detail::no_index && particle == std::floor(particle),
                     "hmps: number ", first, " of the history is ", particle,
                     ", which is not a particle above the one before; was it changed?");
     particles[n] = static_cast<Index>(particle);

@@ -83,7 +83,7 @@ class ContactHistory {
     double next = 0;
     for (std::size_t at = 0; at < numbers.size(); at += width) {
       const double k = numbers[at];
-      require_history(k >= next && k < static_cast<double>(size) && k == std::floor(k));
+      require_history(is_finite(k) && k >= next && k < static_cast<double>(size) && k == std::floor(k));
       next = k + 1;
       Entry& entry = entries[static_cast<std::size_t>(k)];
       entry.call = call_;
