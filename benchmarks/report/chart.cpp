@@ -28,6 +28,19 @@ std::vector<double> Axis::ticks() const {
   return found;
 }
 
+Panel Panel::with_large_labels(Canvas& canvas, double x, double y, double width, double height) {
+  return {.canvas = canvas,
+          .x = x,
+          .y = y,
+          .width = width,
+          .height = height,
+          .size = 12,
+          .left = 8,
+          .below = 20,
+          .ink = Colour::hex(0x333333),
+          .grid = Colour::hex(0xdddddd)};
+}
+
 void Panel::tick_across(double place, const std::string& label, bool bare) {
   if (!bare) canvas.line(place, y, place, y + height, grid, 1);
   canvas.text(place, y + height + below, label, size, ink, Anchor::middle);

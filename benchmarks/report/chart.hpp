@@ -39,6 +39,9 @@ struct Panel {
   double size = 11, left = 5, below = 15;  ///< of the labels at ticks, and their distances from the rectangle
   Colour ink = Colour::hex(0x222222), grid = Colour::hex(0xe6e6e6);
 
+  /// A panel for a picture of its own.
+  [[nodiscard]] static Panel with_large_labels(Canvas& canvas, double x, double y, double width, double height);
+
   /// A tick at `place` along the lower side, with a line through the panel unless `bare`.
   void tick_across(double place, const std::string& label, bool bare = false);
   /// The same along the left side.

@@ -72,16 +72,7 @@ inline void draw_density(const std::filesystem::path& path) {
   using report::Anchor, report::Colour;
   constexpr double left = 80, top = 50, across_all = 520, up_all = 300;
   report::Canvas canvas(860, 420);
-  report::Panel panel{.canvas = canvas,
-                      .x = left,
-                      .y = top,
-                      .width = across_all,
-                      .height = up_all,
-                      .size = 12,
-                      .left = 8,
-                      .below = 20,
-                      .ink = Colour::hex(0x333333),
-                      .grid = Colour::hex(0xdddddd)};
+  auto panel = report::Panel::with_large_labels(canvas, left, top, across_all, up_all);
   const auto across = report::Axis::linear(-0.5, 2.5, left, left + across_all);
   const auto up = report::Axis::linear(0, 1.3, top + up_all, top);
   canvas.text(left, 28, "The normal density of a wall", 15, panel.ink, Anchor::left, true);

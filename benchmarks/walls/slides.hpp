@@ -175,16 +175,7 @@ inline void draw(const std::vector<Found>& all, const std::filesystem::path& pat
   using report::Anchor, report::Colour;
   constexpr double left = 80, top = 50, across_all = 520, up_all = 260, most = 0.6;
   report::Canvas canvas(860, 380);
-  report::Panel panel{.canvas = canvas,
-                      .x = left,
-                      .y = top,
-                      .width = across_all,
-                      .height = up_all,
-                      .size = 12,
-                      .left = 8,
-                      .below = 20,
-                      .ink = Colour::hex(0x333333),
-                      .grid = Colour::hex(0xdddddd)};
+  auto panel = report::Panel::with_large_labels(canvas, left, top, across_all, up_all);
   const auto across = report::Axis::linear(0, 45, left, left + across_all);
   const auto up = report::Axis::linear(0, most, top + up_all, top);
   canvas.text(left, 28, "Error of a friction coefficient of 0.2 on a wall at an angle", 15, panel.ink, Anchor::left,
