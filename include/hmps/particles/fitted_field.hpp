@@ -101,17 +101,7 @@ class FittedField {
 
   /// Gradient of the distance by central differences over a fiftieth of a spacing to either side: zero across a middle
   /// surface.
-  [[nodiscard]] Point gradient(const Point& x) const {
-    const double reach = 0.02 * spacing_;
-    Point g;
-    for (int c = 0; c < D; ++c) {
-      Point a = x, b = x;
-      a[c] -= reach;
-      b[c] += reach;
-      g[c] = ((*this)(b) - (*this)(a)) / (2 * reach);
-    }
-    return g;
-  }
+  [[nodiscard]] Point gradient(const Point& x) const { return central_gradient(*this, x, 0.02 * spacing_); }
 
   /// Samples the body and its surface: cells of one spacing along a space-filling curve, and 4^D samples in each.
   void sample(const AnyExecutor& execute);

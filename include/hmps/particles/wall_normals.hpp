@@ -30,14 +30,9 @@ template <class F, int D>
   const double apart = spacing / 4, reach = spacing / 50;
   Eigen::Matrix<double, D, D> squares = Eigen::Matrix<double, D, D>::Zero();
   for (int k = 0; k < 2 * D; ++k) {
-    Vector<double, D> at = x, slope;
+    Vector<double, D> at = x;
     at[k / 2] += k % 2 ? apart : -apart;
-    for (int c = 0; c < D; ++c) {
-      Vector<double, D> a = at, b = at;
-      a[c] -= reach;
-      b[c] += reach;
-      slope[c] = static_cast<double>(shape(b)) - static_cast<double>(shape(a));
-    }
+    const Vector<double, D> slope = central_gradient(shape, at, reach);
     squares += slope * slope.transpose();
   }
   require(is_finite(squares.sum()), "hmps: the shape of a wall is NaN or infinite within half a spacing of (",
