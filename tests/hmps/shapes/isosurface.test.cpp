@@ -9,8 +9,12 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "hmps/core/error.hpp"
+#include "hmps/shapes/combine.hpp"
+#include "hmps/shapes/implicit.hpp"
+#include "hmps/shapes/surface_patch.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
 #include "reference/backwards.hpp"
 #include "reference/message_of.hpp"
@@ -104,6 +108,20 @@ TYPED_TEST(Isosurface, IsClosedByTheFacesOfTheBox) {
   EXPECT_NO_THROW(require_closed(mesh));
   EXPECT_NEAR(volume(mesh), 2 * std::numbers::pi / 3, 0.01);
   for (const auto& x : mesh.vertices) EXPECT_GT(x[2], S(-0.0001));
+}
+
+TEST(Isosurface, CostsAPatchTheAreaOfItsBevelledEdgesAsStated) {
+  using P = V<double>;
+  constexpr double bore = 10e-3, length = 12e-3;
+  const auto tube = hmps::subtract(hmps::Cylinder<double, 3>{P(0, 0, -1), P(0, 0, 1), 20e-3},
+                                   hmps::Cylinder<double, 3>{P(0, 0, -1), P(0, 0, 1), bore});
+  const hmps::Box<double, 3> part{P(-25e-3, -25e-3, 0), P(25e-3, 25e-3, length)};
+  for (const auto& [cell, lost] : {std::pair{1.25e-3, 0.039}, {0.625e-3, 0.029}}) {
+    const auto patch = hmps::surface_patch(isosurface(tube, part, cell), [](const P& place, const P& normal) {
+      return std::hypot(place[0], place[1]) < 1.1 * bore && std::abs(normal[2]) < 0.5;
+    });
+    EXPECT_NEAR(hmps::area(patch) / (2 * std::numbers::pi * bore * length), 1 - lost, 2e-3) << cell;
+  }
 }
 
 TEST(Isosurface, DoesNotDependOnTheOrderOfTheWork) {
