@@ -34,8 +34,8 @@ namespace hmps::inline HMPS_ABI {
 /// to the area of the face. A particle near an edge has the areas of both faces. In a wall of fewer than four layers
 /// the areas of its two faces fall on the same particles and cancel partly or completely: use `PatchPressure` there.
 /// On fitted particles and other irregular clouds b_i does not quite vanish inside, and the forces on a closed surface
-/// do not quite sum to zero: by 2 to 4 % of the load for the hole of a ring in the plane with two to five loaded layers
-/// (a program that was not kept). A free body needs the mean force subtracted, or `PatchPressure`.
+/// do not quite sum to zero: by 1 and 3 % of the load when two and three layers around the hole of a ring of six
+/// layers in the plane are loaded. A free body needs the mean force subtracted, or `PatchPressure`.
 template <int D>
 class Pressure {
  public:

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hmps/bonds/bond_list.hpp"
@@ -17,6 +19,7 @@
 #include "hmps/particles/fitted.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/support.hpp"
+#include "hmps/shapes/combine.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/terms/elastic.hpp"
 
@@ -171,6 +174,31 @@ TEST(Pressure, RefusesBadInput) {
   EXPECT_THROW(top.add(F.part(0, 3), f, 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f.part(0, 3), 1.0), hmps::InputError);
   EXPECT_THROW(top.add(F, f, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);
+}
+
+TEST(Pressure, LeavesANetForceOnTheHoleOfAFittedRingAsStated) {
+  using P = hmps::Vector<double, 2>;
+  constexpr double apart = 0.5e-3, hole = 5e-3;
+  const auto ring = hmps::subtract(hmps::Ball<double, 2>{P::Zero(), 8e-3}, hmps::Ball<double, 2>{P::Zero(), hole});
+  const auto fitted = hmps::fit_particles(ring, hmps::Box<double, 2>{P::Constant(-9e-3), P::Constant(9e-3)}, apart);
+  const hmps::BondList<double, 2> bonds(hmps::vectors(fitted.positions), {.spacing = apart});
+  const std::vector<hmps::Matrix<double, 2>> F(fitted.size(), hmps::Matrix<double, 2>::Identity());
+  const double load = 2 * std::numbers::pi * hole;  // N/m at 1 Pa
+  for (const auto& [layers, stated] : {std::pair{2, 0.01}, {3, 0.03}}) {
+    const hmps::ParticleSet loaded(fitted.size(), [&, depth = layers * apart](std::size_t i) {
+      return fitted.positions[i].norm() < hole + 1.02 * depth;
+    });
+    std::vector<P> f(fitted.size(), P::Zero());
+    hmps::Pressure<2>(bonds, loaded).add(hmps::matrices(F), hmps::vectors(f), 1);
+    P net = P::Zero();
+    double radial = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      net += f[i] * apart * apart;
+      radial += f[i].dot(fitted.positions[i].normalized()) * apart * apart;
+    }
+    EXPECT_NEAR(net.norm() / load, stated, 0.003) << layers;
+    EXPECT_NEAR(radial / load, 1, 0.015) << layers;
+  }
 }
 
 }  // namespace pressure_test
