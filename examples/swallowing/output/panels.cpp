@@ -140,7 +140,7 @@ void Grid::draw(const std::filesystem::path& path, const std::function<void(Canv
     const Panel& panel = panels[i];
     const auto [x, y] = corner(i);
     canvas.text(x + 4, y + 28, std::string(1, static_cast<char>('a' + i)), 25, ink, Anchor::left, true);
-    canvas.text(x + 34, y + 28, panel.words, 21, ink);
+    canvas.text(x + 38, y + 28, panel.words, 21, ink);
     canvas.text(x + width - 4, y + 28, panel.value, 21, mark, Anchor::right, true);
     cairo_save(canvas.cairo());
     cairo_translate(canvas.cairo(), x, y + strip);
