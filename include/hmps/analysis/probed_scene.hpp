@@ -69,11 +69,13 @@ class ProbedScene {
  public:
   using Vectors = std::vector<Vector<double, D>>;
 
-  /// The force must outlive the scene.
+  /// `length`: of the trial displacements in m. `caller`: the function that errors name. Both it and the force must
+  /// outlive the scene.
   template <class Force, class X, class V, class Rho>
-  ProbedScene(Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const Rho& density, double length,
-              const AnyExecutor& execute)
-      : force_([&force](const auto&... views) { force(views...); }),
+  ProbedScene(const char* caller, Force& force, const VectorView<X, D>& x, const VectorView<V, D>& v,
+              const Rho& density, double length, const AnyExecutor& execute)
+      : caller_(caller),
+        force_([&force](const auto&... views) { force(views...); }),
         execute_(execute),
         size_(x.size()),
         root_density_(size_),
@@ -83,16 +85,18 @@ class ProbedScene {
         plus_(size_),
         minus_(size_),
         length_(length),
-        speed_(length) {
-    double farthest = 0;
+        speed_(0) {
+    double farthest = 0, fastest = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       x_[i] = x[i];
       farthest = std::max(farthest, static_cast<double>(x_[i].cwiseAbs().maxCoeff()));
       for (int c = 0; c < D; ++c) v_[i][c] = static_cast<T>(v(i, c));
+      fastest = std::max(fastest, static_cast<double>(v_[i].cwiseAbs().maxCoeff()));
       root_density_[i] = std::sqrt(static_cast<double>(at_particle(density, i)));
     }
+    speed_ = std::max(length, 0.01 * fastest);
     require(length >= 8 * static_cast<double>(std::numeric_limits<T>::epsilon()) * farthest,
-            "hmps: the trial displacements of stable_step are ", length, " m, which vanishes in the rounding of ",
+            "hmps: the trial displacements of ", caller, " are ", length, " m, which vanishes in the rounding of ",
             8 * sizeof(T), "-bit positions of up to ", farthest,
             " m; give the spacing in metres, a larger perturbation, or positions in double closer to the origin");
   }
@@ -101,6 +105,8 @@ class ProbedScene {
   [[nodiscard]] bool damped() const { return damped_; }
   /// The number of force evaluations so far.
   [[nodiscard]] int evaluations() const { return evaluations_; }
+  /// The length of the trial displacements in m.
+  [[nodiscard]] double length() const { return length_; }
   /// Scales trial velocities so that they have the same effect as the trial displacements at the step `dt`.
   void scale_speed(double dt) {
     if (detail::is_finite(dt)) speed_ = length_ / dt;
@@ -108,9 +114,21 @@ class ProbedScene {
 
   /// Computes the images of `direction.y` under stiffness and damping by central differences of the force.
   void probe(Direction<D>& direction) {
-    difference(direction.y, x_, length_, direction.stiffness, [&](const auto& trial, auto& f) { call(trial, v_, f); });
-    if (damped_)
-      difference(direction.y, v_, speed_, direction.damping, [&](const auto& trial, auto& f) { call(x_, trial, f); });
+    probe_stiffness(direction);
+    if (damped_) probe_damping(direction);
+  }
+  void probe_stiffness(Direction<D>& direction) { displace(direction.y, length_, direction.stiffness); }
+  void probe_damping(Direction<D>& direction) {
+    difference(direction.y, v_, speed_, direction.damping, [&](const auto& trial, auto& f) { call(x_, trial, f); });
+  }
+  /// Lengthens the trial displacements, to at most `longest`, until the rounding of the force hardly matters: a force
+  /// may compute in fewer digits than the positions have. Afterwards, `direction.stiffness` is the image of
+  /// `direction.y`.
+  void resolve(Direction<D>& direction, double longest) {
+    for (;; length_ *= 10) {
+      probe_stiffness(direction);
+      if (10 * length_ > longest || resolves(direction)) return;
+    }
   }
   /// From now on, skips the velocities if the force did not respond to those of `direction`.
   void forget_damping_if_none(const Direction<D>& direction) {
@@ -142,6 +160,26 @@ class ProbedScene {
  private:
   using State = std::vector<Vector<T, D>>;
 
+  /// Whether rounding, which contributes the more the shorter the displacements are, hardly changes the image of
+  /// displacements a hundred times shorter. Where it changes although two such images agree, the force has a kink.
+  [[nodiscard]] bool resolves(const Direction<D>& direction) {
+    constexpr double shorter = 0.01, agreement = 0.1;
+    const auto apart = [&](const Vectors& a, const Vectors& b) {
+      return reduce(
+          size_, 0.0, [&](std::size_t i) { return (a[i] - b[i]).squaredNorm(); }, std::plus<>{}, execute_);
+    };
+    const double most = agreement * agreement * dot(direction.stiffness, direction.stiffness);
+    if (!(most > 0)) return false;  // all of the motion may have been lost
+    Vectors image(size_), other(size_);
+    displace(direction.y, shorter * length_, image);
+    if (apart(image, direction.stiffness) <= most) return true;
+    displace(direction.y, 1.1 * shorter * length_, other);
+    return apart(image, other) <= most && dot(image, image) > most;
+  }
+  void displace(const Vectors& y, double length, Vectors& image) {
+    difference(y, x_, length, image, [&](const auto& trial, auto& f) { call(trial, v_, f); });
+  }
+
   void call(const State& x, const State& v, State& f) {
     for_each_in_chunks(size_, execute_, [&](std::size_t i) { f[i].setZero(); });
     ++evaluations_;
@@ -167,10 +205,11 @@ class ProbedScene {
     if (detail::is_finite(dot(image, image))) return;
     for (std::size_t i = 0; i < size_; ++i)
       if (!detail::is_finite(image[i].squaredNorm()))
-        throw StateError(message("hmps: stable_step finds a force on particle ", i, " that is not finite, ",
+        throw StateError(message("hmps: ", caller_, " finds a force on particle ", i, " that is not finite, ",
                                  plus_[i].transpose(), " N/m3; check its det F, x, v and the parameters of its law"));
   }
 
+  const char* caller_;
   ForceFunction<T, D> force_;
   AnyExecutor execute_;
   std::size_t size_;

@@ -41,9 +41,9 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// The result holds for the given state; stretch and new contacts change it. A contact without penetration does not
 /// count. One whose penetration is smaller than the trial displacement counts about half: set `perturbation` well below
-/// the penetrations, in spacings. The derivatives of contact are not symmetric; in the scenes of
-/// docs/measured/stability.md the limit nevertheless agreed with that of the true, unsymmetric motion within half a per
-/// cent.
+/// the penetrations, in spacings, and compare it with the one used if contact computes in float. The derivatives of
+/// contact are not symmetric; in the scenes of docs/measured/stability.md the limit nevertheless agreed with that of
+/// the true, unsymmetric motion within half a per cent.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
@@ -67,7 +67,7 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   require_finite(v, "the velocity");
   detail::require_spacing_of(x, settings.spacing, "stable_step", detail::most_compressed);
   const detail::AnyExecutor loops = std::cref(execute);
-  detail::ProbedScene<T, D> scene(force, x, v, density, detail::trial_displacement<T>(settings), loops);
+  detail::ProbedScene<T, D> scene("stable_step", force, x, v, density, detail::trial_displacement<T>(settings), loops);
   return detail::StepSearch<T, D>(scene, settings, loops).run();
 }
 

@@ -21,8 +21,10 @@ struct StableStepSettings {
   double margin = 0.03;      ///< relative distance that the step keeps from the estimated limit
   double tolerance = 0.02;   ///< residual of the eigenvector, relative to the eigenvalue, at which the search stops
   int max_iterations = 300;  ///< one or two pairs of force evaluations each
-  double perturbation = 0;   ///< trial displacement over the spacing; 0: 1e-2 for float, 1e-5 for double
-  std::uint64_t seed = 1;    ///< seed of the noise from which the search starts
+  /// Trial displacement over the spacing. 0: 1e-2 if positions are float, otherwise 1e-5, or as much more, up to 1e-2,
+  /// as the force needs because it computes in float.
+  double perturbation = 0;
+  std::uint64_t seed = 1;  ///< seed of the noise from which the search starts
   /// The `mode` of an earlier result for the same particles, to start from instead of noise; see `stable_step`.
   std::vector<double> start = {};
   int refresh_iterations = 4;  ///< minimum number of iterations with a `start`
@@ -46,6 +48,7 @@ struct StableStep {
   bool converged = false;    ///< if false, raise max_iterations or tolerance; the step is still conservative
   int iterations = 0;        ///< number of iterations
   int evaluations = 0;       ///< number of force evaluations
+  double perturbation = 0;   ///< trial displacement used, over the spacing
   /// The limiting mode: displacements times the square root of density, D numbers per particle, of unit length. Input
   /// of `StableStepSettings::start` and `step_causes`.
   std::vector<double> mode = {};
@@ -70,10 +73,13 @@ inline void validate(const StableStepSettings& s) {
 /// Factor by which the spacing of deformed particles may differ from l0; more means another unit.
 inline constexpr double most_compressed = 100;
 
-/// Length in m of the trial displacements for positions of type `T`.
+/// The longest trial displacement over the spacing that is chosen without being asked for.
+inline constexpr double longest_perturbation = 1e-2;
+
+/// Length in m of the trial displacements for positions of type `T`, with which the search begins.
 template <class T>
 [[nodiscard]] double trial_displacement(const StableStepSettings& s) {
-  return s.spacing * (s.perturbation > 0 ? s.perturbation : sizeof(T) > 4 ? 1e-5 : 1e-2);
+  return s.spacing * (s.perturbation > 0 ? s.perturbation : sizeof(T) > 4 ? 1e-5 : longest_perturbation);
 }
 
 }  // namespace detail

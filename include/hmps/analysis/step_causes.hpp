@@ -69,9 +69,11 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
   std::vector<StepCause> causes;
   if (!detail::is_finite(found.limit)) return causes;
   const double dt = found.limit;
+  const double length = settings.perturbation > 0 || !(found.perturbation > 0) ? detail::trial_displacement<T>(settings)
+                                                                               : found.perturbation * settings.spacing;
   const auto ask = [&](const std::string& name, auto& force) {
     detail::require_force(force, "step_causes");
-    detail::ProbedScene<T, D> scene(force, x, v, density, detail::trial_displacement<T>(settings), Serial{});
+    detail::ProbedScene<T, D> scene("step_causes", force, x, v, density, length, Serial{});
     scene.scale_speed(dt);
     detail::Direction<D> mode(n);
     for (std::size_t i = 0; i < n; ++i)

@@ -61,8 +61,7 @@ class StepSearch {
     start_from_noise();
     if (!settings.start.empty()) start_from_mode();
     require(scene_.normalise(best_, 1.0), "hmps: no particle of stable_step moves; `moves` must be true for some");
-    probe(best_);
-    scene_.forget_damping_if_none(best_);
+    begin();
   }
 
   [[nodiscard]] StableStep run() {
@@ -128,8 +127,28 @@ class StepSearch {
       for (int c = 0; c < D; ++c)
         best_.y[i][c] = moves(i) ? settings_.start[i * D + static_cast<std::size_t>(c)] + share * best_.y[i][c] : 0.0;
   }
+  /// Computes the images of the start, with trial displacements and velocities of the right size.
+  void begin() {
+    if (settings_.perturbation > 0)
+      scene_.probe_stiffness(best_);
+    else
+      scene_.resolve(best_, longest_perturbation * settings_.spacing);
+    const double undamped = step_limit(scene_.dot(best_.y, best_.stiffness), 0.0);
+    scene_.scale_speed(undamped);
+    scene_.probe_damping(best_);
+    scene_.forget_damping_if_none(best_);
+    if (scene_.damped() && !is_finite(undamped)) {  // only now is there a step
+      scene_.scale_speed(step_limit(0.0, scene_.dot(best_.y, best_.damping)));
+      scene_.probe_damping(best_);
+    }
+    keep_prescribed(best_);
+  }
   void probe(Direction<D>& direction) {
     scene_.probe(direction);
+    keep_prescribed(direction);
+  }
+  /// Particles that do not follow the forces have no images.
+  void keep_prescribed(Direction<D>& direction) const {
     for (std::size_t i = 0; settings_.moves && i < n_; ++i)
       if (!moves(i)) direction.stiffness[i] = direction.damping[i] = Vector<double, D>::Zero();
   }
@@ -179,6 +198,7 @@ class StepSearch {
     result.damping = std::max(c_, 0.0);
     result.step = (1 - settings_.margin) * result.limit / std::sqrt(1 + result.residual);
     result.evaluations = scene_.evaluations();
+    result.perturbation = scene_.length() / settings_.spacing;
     result.mode.reserve(n_ * D);
     for (const auto& y : best_.y) result.mode.insert(result.mode.end(), y.data(), y.data() + D);
     double sum = 0, squares = 0, largest = -1;

@@ -26,7 +26,7 @@ TEST(ProbedScene, DerivativesOfALinearForceAreExact) {
   std::vector<Vector<double, 2>> x{{1, 2}, {3, 4}}, v{{5, 6}, {7, 8}};
   const Spring spring;
   const double density = 1000;
-  detail::ProbedScene<double, 2> scene(spring, vectors(x), vectors(v), density, 1e-3, Serial{});
+  detail::ProbedScene<double, 2> scene("test", spring, vectors(x), vectors(v), density, 1e-3, Serial{});
   detail::Direction<2> direction(2);
   direction.y = {{0.5, -0.25}, {0, 1}};
   scene.probe(direction);
@@ -42,7 +42,7 @@ TEST(ProbedScene, VectorAlgebra) {
   std::vector<Vector<double, 2>> x(3, Vector<double, 2>::Zero());
   const Spring spring;
   const double density = 1000;
-  detail::ProbedScene<double, 2> scene(spring, vectors(x), vectors(x), density, 1e-3, Serial{});
+  detail::ProbedScene<double, 2> scene("test", spring, vectors(x), vectors(x), density, 1e-3, Serial{});
   detail::Direction<2> a(3), b(3);
   a.y = {{3, 0}, {0, 4}, {0, 0}};
   b.y = {{1, 1}, {1, 1}, {1, 1}};
