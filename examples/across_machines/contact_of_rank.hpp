@@ -23,7 +23,8 @@ namespace across_machines {
 
 using Vector = hmps::Vector<double, 3>;
 using Gradient = hmps::Matrix<float, 3>;
-using Contact = hmps::MetaballContact<double, 3, hmps::SmoothMetaball>;
+/// Not `SpringFriction`: its elastic slip would have to follow particles from rank to rank in each survey.
+using Contact = hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::CorrectedFriction>;
 inline constexpr const char* body_name[] = {"plate", "block"};
 inline const hmps::ContactSettings contact_settings{
     .spacing = l0, .density = rho, .friction = mu, .stiffness = hmps::PenaltyStiffness::ratio(0.05)};

@@ -43,8 +43,9 @@ namespace hmps::inline HMPS_ABI {
 /// \paper{2}; it adds the force density (N/m3) of \paper{43} to `f`. Views hold all particles; F is read for slaves and
 /// masters only. (The rotation of a rigid particle is irrelevant, so its F may stay the identity.)
 ///
-/// The forces of a contact and its reactions sum to zero. Their torque does not vanish exactly, because a reaction acts
-/// at the master's centre and not at the point of contact (\paper{41, 42}).
+/// The forces of a contact and its reactions sum to zero: the densities times l0^D, or times the volumes of the organs
+/// if they have any. Their torque does not vanish exactly, because a reaction acts at the master's centre and not at
+/// the point of contact (\paper{41, 42}).
 ///
 /// Results are the same to the bit for any executor. They do not depend on when lists were built as long as `late` of
 /// the report stays zero; strong deformation within a few steps, as in an impact at half the speed of sound, may be
@@ -57,8 +58,7 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// Slaves with an undefined normal (deep inside) receive no force and are counted as deep; `check` reports them as an
 /// error.
-template <class S, int D, class Kernel = SmoothMetaball, class Friction = CorrectedFriction,
-          class Penalty = LinearPenalty>
+template <class S, int D, class Kernel = SmoothMetaball, class Friction = SpringFriction, class Penalty = LinearPenalty>
 class MetaballContact {
   static_assert(D == 2 || D == 3, "hmps: contact is in 2 or 3 dimensions");
   static_assert(detail::RequireMetaball<Kernel>::value);
@@ -77,7 +77,7 @@ class MetaballContact {
       : settings_(settings),
         penalty_(law),
         lists_(static_cast<S>(settings.spacing), static_cast<S>(settings.margin * settings.spacing)) {
-    detail::validate(settings, damping());
+    detail::validate(settings, damping(1));
   }
 
   /// Declares an organ and returns its number for `add_pair`. Throws `InputError` if it is empty.
@@ -139,13 +139,14 @@ class MetaballContact {
   /// Adds the effect of contact over the step `dt` (s) to the velocities `v` (m/s), \paper{3}: equivalent to `add` on
   /// zeros and `kick`, but without an array of forces, and at no cost for particles far from any other organ.
   /// `prescribed` particles keep their velocity. Density `rho` in kg/m3: a number, a view or a callable. Throws as
-  /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1;
-  /// for a `PenaltyLaw` of your own, k is the largest stiffness that occurs in its pair.
+  /// those two do, and `InputError` if a particle that may touch is so light that its own k~ = k dt^2 / rho reaches 1
+  /// (for a `PenaltyLaw` of your own, k is the largest stiffness in its pair) or if `v` shares memory with `x`.
   template <class X, class V, class M, PerParticle Rho, Executor E = Serial>
   ContactReport<S> kick(const VectorView<X, D>& x, const VectorView<V, D>& v, const MatrixView<M, D>& F, const Rho& rho,
                         double dt, const E& execute = {}) {
     static_assert(!std::is_const_v<V>, "hmps: kick changes the velocities; give it a writable view of them");
     require_size(F, x.size(), "deformation gradients");
+    require_apart(v, "velocities", x, "positions");
     require_positive(rho, x.size(), "density", "kg/m3");
     lists_.organs().require_particles(x.size());
     detail::require_step(dt);
@@ -154,7 +155,7 @@ class MetaballContact {
     if (report.contacts == 0) return report;
     if constexpr (!is_linear) require_heavy(rho, dt);  // with the stiffness of the rows that touch
     hand_out(
-        [&](const typename detail::ActiveRows<S>::Awake& own, const Point& force) {
+        [&](const auto& own, const Point& force) {
           if (own.flags & detail::is_prescribed) return;
           const Index i = own.particle;
           for (int c = 0; c < D; ++c) detail::kick(v(i, c), force[c], at_particle(rho, i), dt);
@@ -186,25 +187,14 @@ class MetaballContact {
   }
 
   /// Force in N on the slaves of the first organ of `pair` minus that on the slaves of the second in the latest call:
-  /// the force of the second organ on the first. Each particle has the volume l0^D. Throws `InputError` if there is no
-  /// such pair.
+  /// the force of the second organ on the first. Throws `InputError` if there is no such pair.
   [[nodiscard]] Vector<double, D> force_on_first(std::size_t pair) const;
 
   /// Calls `visit(touch)` with a `Touch<D>` for each slave in contact in the latest call, once per organ that it
   /// touches: for pressures, areas and moments. The component of the force along the normal is \paper{39}, the rest is
-  /// friction. Each particle has the volume l0^D.
+  /// friction.
   template <class Visit>
-  void for_each_touch(Visit&& visit) const {
-    const double volume = std::pow(settings_.spacing, D);
-    for (const Index r : touching_) {
-      const auto& row = lists_.active().rows()[r];
-      const auto& side = lists_.organs().sides()[row.side];
-      const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
-      visit(Touch<D>{side.pair, side.slaves == lists_.organs().pairs()[side.pair].first,
-                     lists_.active().awake()[row.slave].particle, static_cast<double>(state_[r].penetration),
-                     state_[r].normal.template cast<double>(), force * volume});
-    }
-  }
+  void for_each_touch(Visit&& visit) const;
 
  private:
   using Quad = detail::Quad<S>;
@@ -232,11 +222,12 @@ class MetaballContact {
     require_size(f, x.size(), "contact forces");
     require_apart(f, "contact forces", x, "positions");
     require_apart(f, "contact forces", v, "velocities");
+    detail::require_step(dt);
+    if constexpr (is_linear) require_heavy(settings_.density, dt);
     const ContactReport<S> report = survey(x, v, F, dt, execute);
-    if (report.contacts > 0)
-      hand_out(
-          [&](const typename detail::ActiveRows<S>::Awake& own, const Point& force) { f.add(own.particle, force); },
-          execute);
+    if (report.contacts == 0) return report;
+    if constexpr (!is_linear) require_heavy(settings_.density, dt);
+    hand_out([&](const auto& own, const Point& force) { f.add(own.particle, force); }, execute);
     return report;
   }
   /// Throws `InputError` for organs without any pair, and for a spacing far below that of the particles of an organ.
@@ -246,7 +237,11 @@ class MetaballContact {
   template <class X, class V, class G, class E>
   ContactReport<S> survey(const X& x, const V& v, const G& F, double dt, const E& execute);
 
-  [[nodiscard]] double damping() const { return settings_.damping.value_or(detail::damping_of<Friction>()); }
+  /// The normal damping, as a fraction of critical, of a pair with the friction coefficient `mu`.
+  [[nodiscard]] double damping(double mu) const {
+    return settings_.damping.value_or(mu > 0 ? detail::damping_of<Friction>() : 0);
+  }
+  [[nodiscard]] double friction(std::size_t pair) const { return own_[pair].friction.value_or(settings_.friction); }
   template <class X, class V, class G>
   bool touch(std::size_t r, const X& x, const V& v, const G& F, S& depth);
   [[noreturn]] void fail(const ContactReport<S>& report, double time) const;

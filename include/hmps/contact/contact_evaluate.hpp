@@ -219,7 +219,12 @@ ContactReport<S> MetaballContact<S, D, Kernel, Friction, Penalty>::survey(const 
     return report;
   }
   gather(x, v, F, execute);  // throws for an invalid state, which must not cost the history
-  if constexpr (has_spring) motion_.update(x, lists_.organs().particle(), execute);
+  if constexpr (has_spring) {
+    if (std::any_of(laws_.begin(), laws_.end(), [](const PairLaw& law) { return law.friction > S(0); }))
+      motion_.update(x, lists_.organs().particle(), execute);
+    else
+      motion_.forget();
+  }
   history_.next_call();
   try {
     find(x, v, F, report, execute);

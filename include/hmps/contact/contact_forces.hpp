@@ -15,7 +15,7 @@ S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffne
   const double k = is_linear ? stiffness.at(settings_.density, dt) : stiffness.coefficient(settings_.density, dt);
   detail::require(!is_linear || k >= 1, "hmps: the penalty coefficient k is ", k,
                   " N/m4, with which walls do not push; to give the ratio k~, use PenaltyStiffness::ratio");
-  const double largest = k * std::max({1., settings_.spacing, damping() > 0 ? settings_.density : 0.});
+  const double largest = k * std::max({1., settings_.spacing, damping(1) > 0 ? settings_.density : 0.});
   detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
                       largest <= static_cast<double>(std::numeric_limits<S>::max()),
                   "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt,
@@ -32,13 +32,14 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& 
     const double k = is_linear ? stiffness(p).at(settings_.density, dt) : laws_[p].largest;
     const double least = k * dt * dt;  // the density at which k~ = 1
     if constexpr (std::is_arithmetic_v<Rho>)
-      if (static_cast<double>(rho) > least) continue;
+      if (static_cast<double>(rho) * lists_.organs().least_volume() > least) continue;
     for (const std::size_t o : {lists_.organs().pairs()[p].first, lists_.organs().pairs()[p].second})
-      lists_.organs().for_each_movable(o, [&](Index i) {
-        const double own = static_cast<double>(at_particle(rho, i));
+      lists_.organs().for_each_movable(o, [&](const auto& member) {
+        const double own = static_cast<double>(at_particle(rho, member.particle));
         detail::require(
-            own > least, "hmps: particle ", i, " of '", lists_.organs().organs()[o].name, "' has the density ", own,
-            " kg/m3, which makes its penalty ratio k~ = k dt^2 / rho = ", least / own,
+            own * member.volume > least, "hmps: particle ", member.particle, " of '", lists_.organs().organs()[o].name,
+            "' has the density ", own, " kg/m3 and the volume ", member.volume,
+            " l0^D, which makes its penalty ratio k~ = k dt^2 / rho = ", least / (own * member.volume),
             "; it must be below 1, but the contact was set for ", settings_.density,
             " kg/m3: set `ContactSettings::density` to that of the lightest body, or give its pair a softer "
             "`PairSettings::stiffness`");
@@ -52,8 +53,8 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   laws_.resize(own_.size());
   for (std::size_t p = 0; p < own_.size(); ++p) {
     const S k = penalty(stiffness(p), dt);
-    laws_[p] = {k, static_cast<S>(2 * damping()) * std::sqrt(k * static_cast<S>(settings_.density)),
-                static_cast<S>(detail::finite_friction(own_[p].friction.value_or(settings_.friction))), 0};
+    laws_[p] = {k, static_cast<S>(2 * damping(friction(p))) * std::sqrt(k * static_cast<S>(settings_.density)),
+                static_cast<S>(detail::finite_friction(friction(p))), 0};
   }
 }
 
@@ -96,7 +97,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
         load += static_cast<S>(state_[lists_.active().slave_rows()[q]].penetration > S(0));
       for (std::size_t e = own.entries; e < next.entries; ++e) load += entry_weight_[e];
     }
-    load_[t] = load;
+    load_[t] = load * own.inverse_volume;
   });
 }
 
@@ -129,7 +130,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
       }
       const S most = rate * CorrectedFriction::share(load), stick = rate * Friction::share(load);
       Point velocity = state.slip;
-      if constexpr (has_spring) velocity += follow(r, dt);
+      if constexpr (has_spring)
+        if (law.friction > S(0)) velocity += follow(r, dt);
       const S normal = normal_force(penalty_, law.stiffness, state.penetration, spacing, std::min(law.damping, most),
                                     velocity.dot(state.normal));
       Point force = normal * state.normal;
@@ -146,8 +148,8 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
           force += friction_force<S, D>(slip, stick, law.friction * normal);
           result.count += stick * slip.norm() <= law.friction * normal;
         }
-      } else if constexpr (has_spring) {  // clear the slip, so that none acts once friction is switched on
-        history_.slip(row.slot).value = Point::Zero();
+      } else if constexpr (has_spring) {  // none acts once friction is switched on
+        history_.slip(row.slot) = Slip{};
       }
       detail::set_quad<S>(force, force_[r]);
     }
@@ -199,7 +201,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::hand_out(const Take& take
     for (std::size_t q = own.rows; q < next.rows; ++q) force += force_[lists_.active().slave_rows()[q]];
     for (std::size_t e = own.entries; e < next.entries; ++e)
       force -= force_[lists_.active().entry_rows()[e]] * entry_weight_[e];
-    take(own, Point(detail::first<D, S>(force)));
+    take(own, Point(own.inverse_volume * detail::first<D, S>(force)));
   });
 }
 
@@ -215,6 +217,20 @@ Vector<double, D> MetaballContact<S, D, Kernel, Friction, Penalty>::force_on_fir
     sum += side.slaves == lists_.organs().pairs()[pair].first ? force : -force;
   }
   return sum * std::pow(settings_.spacing, D);
+}
+
+template <class S, int D, class Kernel, class Friction, class Penalty>
+template <class Visit>
+void MetaballContact<S, D, Kernel, Friction, Penalty>::for_each_touch(Visit&& visit) const {
+  const double cell = std::pow(settings_.spacing, D);
+  for (const Index r : touching_) {
+    const auto& row = lists_.active().rows()[r];
+    const auto& side = lists_.organs().sides()[row.side];
+    const Vector<double, D> force = detail::first<D, S>(force_[r]).template cast<double>();
+    visit(Touch<D>{side.pair, side.slaves == lists_.organs().pairs()[side.pair].first,
+                   lists_.active().awake()[row.slave].particle, static_cast<double>(state_[r].penetration),
+                   state_[r].normal.template cast<double>(), force * cell});
+  }
 }
 
 }  // namespace hmps::inline HMPS_ABI

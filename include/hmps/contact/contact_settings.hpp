@@ -20,8 +20,8 @@ struct ContactSettings {
   double friction = 0;
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.
   /// Normal damping as a fraction of critical, 2 sqrt(k rho), whatever the penalty law; an extension: the paper has
-  /// none. It is limited so that it does not reverse the closing velocity within a step. If it is not set, the value of
-  /// the friction law (`SpringFriction::damping`) or else zero applies.
+  /// none. It is limited so that it does not reverse the closing velocity within a step. If it is not set, it is that
+  /// of the friction law, 0.3 with `SpringFriction`, for pairs with friction, and zero for pairs without.
   std::optional<double> damping = std::nullopt;
   double margin = 0.5;  ///< Margin of the Verlet lists in spacings: the motion that they tolerate.
 };

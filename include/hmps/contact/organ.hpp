@@ -35,6 +35,10 @@ struct Organ {
   /// spacing of the contact, so that undeformed slaves are spheres that touch one spacing apart). For layers that lie
   /// closer or wider, give half their spacing: `[&](Index i) { return fitted.layer_spacings[i] / 2; }`.
   std::function<double(Index)> radius{};
+  /// Volume in m3 (m2 in 2D) that a particle stands for (default: l0^D). If the bonds have volumes, give the same here,
+  /// `[&](Index i) { return fitted.volumes[i]; }`: otherwise the forces of bodies on each other, density times volume,
+  /// differ.
+  std::function<double(Index)> volume{};
 };
 
 /// Which organs of a pair have slaves. In the paper both do, \paper{43}.

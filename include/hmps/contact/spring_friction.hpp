@@ -27,15 +27,16 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// Elastic slip follows the positions that contact receives, whatever moves them. It rotates with the masters. It is
 /// lost where contact is lost, and by `refresh`. Evaluating the same state again keeps it, but a rotating wall then
-/// seems to stand still, which changes the damping. For this, contact stores the positions of all particles of organs.
+/// seems to stand still, which changes the damping. For this, contact stores the positions of all particles of organs;
+/// if no pair has friction, it stores none, and costs what contact with another law costs.
 ///
 /// A program that is to be stopped and resumed must store `MetaballContact::history` with its state. Probing the force
 /// at displaced positions, as `stable_step` and `step_causes` do, moves the elastic slip too: in the middle of a run,
 /// restore the history afterwards.
 struct SpringFriction : CorrectedFriction {
   static constexpr bool has_spring = true;
-  /// Default of `ContactSettings::damping`. Slaves at the friction limit can excite normal vibrations of a wall,
-  /// because their friction follows the penetration; normal damping suppresses them.
+  /// Default of `ContactSettings::damping` for pairs with friction. Slaves at the friction limit can excite normal
+  /// vibrations of a wall, because their friction follows the penetration; normal damping suppresses them.
   static constexpr double damping = 0.3;
 };
 

@@ -114,6 +114,11 @@ class ParticleMotion {
       }
     });
   }
+  /// Makes the next call of `update` the first one.
+  void forget() {
+    particle_.clear();
+    place_.clear();
+  }
   /// The positions in m of all particles at the latest call; none before the first.
   [[nodiscard]] const std::vector<Vector<double, D>>& places() const { return place_; }
   /// The particles of these, in order.

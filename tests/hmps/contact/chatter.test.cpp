@@ -42,11 +42,12 @@ Chatter slide(double ratio, double damping) {
   const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference).part(0, count), {.spacing = l0});
   auto force = hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(20e3, 1e6)),
                                     hmps::artificial(20e3), hmps::viscous(rho, 2e-3), hmps::record(F.part(0, count)));
-  hmps::MetaballContact<double, 3, Ball> contact({.spacing = l0,
-                                                  .density = rho,
-                                                  .friction = 0.1,
-                                                  .stiffness = hmps::PenaltyStiffness::ratio(ratio),
-                                                  .damping = damping});
+  hmps::MetaballContact<double, 3, Ball, hmps::CorrectedFriction> contact(
+      {.spacing = l0,
+       .density = rho,
+       .friction = 0.1,
+       .stiffness = hmps::PenaltyStiffness::ratio(ratio),
+       .damping = damping});
   const auto held = [](Index) { return true; };
   const auto pair = contact.add_pair(
       contact.add_organ({.name = "block", .slaves = block.top, .masters = block.upper, .prescribed = {}}),

@@ -36,7 +36,8 @@ TYPED_TEST(ContactBits, AreTheSameInAnyOrderAndHoweverOldTheLists) {
   constexpr double dt = 1e-5;
   bodies::Pile<S, D> pile(1.3);
   pile.shake(S(0.05), S(0.03), 4);
-  MetaballContact<S, D, typename TypeParam::Ball> serial(with_friction), reversed(with_friction), fresh(with_friction);
+  using Contact = MetaballContact<S, D, typename TypeParam::Ball, hmps::CorrectedFriction>;  // which forgets nothing
+  Contact serial(with_friction), reversed(with_friction), fresh(with_friction);
   for (auto* contact : {&serial, &reversed, &fresh}) pile.declare(*contact);
   std::size_t contacts = 0;
   for (int step = 0; step < 100; ++step) {
@@ -68,7 +69,8 @@ std::pair<std::vector<hmps::Vector<double, 3>>, double> pressed(bool fresh_lists
   const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference).part(0, count), {.spacing = l0});
   auto force = hmps::internal_force(bonds, hmps::elastic(hmps::MooneyRivlin<>::from_young(20e3, 1e6)),
                                     hmps::artificial(20e3), hmps::record(F.part(0, count)));
-  MetaballContact<double, 3, PaperMetaball> contact({.spacing = l0, .density = 1000, .friction = 0.1});
+  MetaballContact<double, 3, PaperMetaball, hmps::CorrectedFriction> contact(
+      {.spacing = l0, .density = 1000, .friction = 0.1});
   contact.add_pair(
       contact.add_organ({.name = "block", .slaves = block.top, .masters = block.upper, .prescribed = {}}),
       contact.add_organ({.name = "plate", .slaves = plate.bottom, .masters = plate.lower, .prescribed = {}}));

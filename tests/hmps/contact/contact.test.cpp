@@ -36,7 +36,8 @@ using Cases = ::testing::Types<Case<double, 3, SmoothMetaball>, Case<double, 2, 
                                Case<float, 3, PaperMetaball>, Case<float, 2, SmoothMetaball>>;
 TYPED_TEST_SUITE(ContactTest, Cases);
 
-const hmps::ContactSettings with_friction{.spacing = 1e-3, .density = 1000, .friction = 0.3};
+/// Without damping, the normal force is that of the paper.
+const hmps::ContactSettings with_friction{.spacing = 1e-3, .density = 1000, .friction = 0.3, .damping = 0};
 constexpr double dt = 1e-5;
 
 TYPED_TEST(ContactTest, PushesTheBodiesApartAndSumsToZero) {
@@ -183,7 +184,8 @@ TEST(Stick, StopsEverySlaveOnAPrescribedWallInOneStep) {
   bodies::Pile<double, 3> pile(0.9);
   for (const Index i : pile.block.all) pile.v[i][0] = 0.02;
   const auto forces = [&](double mu) {
-    MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000, .friction = mu});
+    MetaballContact<double, 3, SmoothMetaball, CorrectedFriction> contact(
+        {.spacing = 1e-3, .density = 1000, .friction = mu});
     pile.declare(contact, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}}, true);
     const auto report = pile.apply(contact, dt);
     EXPECT_EQ(report.contacts, pile.block.bottom.size());
@@ -459,6 +461,104 @@ TEST(Kick, ConservesTheMomentumOfUnlikeVolumes) {
   for (std::size_t i = 0; i < v.size(); ++i) gain = std::max(gain, 1200 * volumes[i] * (v[i] - pile.v[i]).norm());
   EXPECT_GT(gain, 0);
   EXPECT_LE((after - before).norm(), 1e-12 * gain + 1e-15 * before.norm());
+}
+
+/// A pile whose particles have volumes between 0.5 and 1.6 cells.
+struct UnevenPile {
+  bodies::Pile<double, 3> pile{0.9};
+  std::vector<double> volumes;
+
+  UnevenPile() {
+    pile.shake(0.05, 0.03, 5);
+    scenes::Random random(3);
+    for (std::size_t i = 0; i < pile.x.size(); ++i) volumes.push_back(std::pow(pile.l0, 3) * random(0.5, 1.6));
+  }
+  template <class Contact>
+  void declare(Contact& contact) const {
+    const auto volume = [this](Index i) { return volumes[i]; };
+    const auto below =
+        contact.add_organ({.name = "plate", .slaves = pile.plate.top, .masters = pile.plate.upper, .volume = volume});
+    contact.add_pair(
+        below, contact.add_organ(
+                   {.name = "block", .slaves = pile.block.bottom, .masters = pile.block.lower, .volume = volume}));
+  }
+};
+
+TEST(Volumes, MakeTheForcesOfUnlikeParticlesSumToZero) {
+  UnevenPile uneven;
+  bodies::Pile<double, 3>& pile = uneven.pile;
+  MetaballContact<double, 3> contact(with_friction), kicks(with_friction);
+  uneven.declare(contact);
+  uneven.declare(kicks);
+  ASSERT_GT(pile.apply(contact, dt).contacts, 4U);
+  hmps::Vector<double, 3> total = hmps::Vector<double, 3>::Zero(), on_block = total, touching = total;
+  double size = 0;
+  for (std::size_t i = 0; i < pile.f.size(); ++i) {
+    total += uneven.volumes[i] * pile.f[i];
+    size += uneven.volumes[i] * pile.f[i].norm();
+  }
+  for (const Index i : pile.block.all) on_block += uneven.volumes[i] * pile.f[i];
+  EXPECT_LT(total.norm(), 1e-14 * size);
+  EXPECT_LT((on_block + contact.force_on_first(0)).norm(), 1e-14 * size);
+  contact.for_each_touch(
+      [&](const hmps::Touch<3>& touch) { touching += touch.slave_is_first ? touch.force : -touch.force; });
+  EXPECT_LT((touching - contact.force_on_first(0)).norm(), 1e-14 * size);
+  auto v = pile.v;
+  kicks.kick(hmps::vectors(pile.x), hmps::vectors(v), hmps::matrices(pile.F), 1000, dt);
+  hmps::kick(hmps::vectors(pile.v), hmps::vectors(pile.f), 1000, dt);
+  EXPECT_EQ(v, pile.v);
+}
+
+TEST(Volumes, LetStickingEndNoSooner) {
+  // The upper sheet is as light as the penalty permits. With the share of particles of one volume, its slip reverses.
+  bodies::Scene<double, 3> scene;
+  const hmps::Vector<int, 3> counts(13, 13, 1);
+  const double l0 = 1e-3;
+  const auto below = scene.add(counts, {0, 0, 0}, l0), above = scene.add(counts, {0, 0, 0.9 * l0}, l0);
+  for (const Index i : above.all) scene.v[i][0] = 0.02;
+  const std::size_t first = below.all.size();
+  MetaballContact<double, 3, PaperMetaball, CorrectedFriction> contact(
+      {.spacing = l0, .density = 1000, .friction = 100, .stiffness = hmps::PenaltyStiffness::ratio(0.05)});
+  const auto volume = [&](Index i) { return (i < first ? 1 : 0.1) * l0 * l0 * l0; };
+  contact.add_pair(
+      contact.add_organ({.name = "below", .slaves = below.top, .masters = below.upper, .volume = volume}),
+      contact.add_organ({.name = "above", .slaves = above.bottom, .masters = above.lower, .volume = volume}));
+  scene.apply(contact, dt);
+  const Index middle = 6 * 13 + 6;
+  const auto slip = [&](Index i, Index j) {
+    return (scene.v[i] - scene.v[j] + (scene.f[i] - scene.f[j]) * dt / 1000)[0];
+  };
+  EXPECT_NEAR(slip(above.all[middle], below.all[middle]), 0, 1e-12);
+}
+
+TEST(Volumes, AreThoseOfOneParticle) {
+  MetaballContact<double, 3> contact(with_friction);
+  const std::vector<Index> some{3, 4};
+  const auto add = [&](double volume) {
+    return message_of([&] {
+      contact.add_organ({.name = "liver", .slaves = some, .masters = some, .volume = [=](Index) { return volume; }});
+    });
+  };
+  for (const double wrong : {0.0, -1e-9, std::nan(""), 1.0, 1e-12})
+    EXPECT_NE(add(wrong).find("particle 3 of organ 'liver' has a volume of "), std::string::npos) << wrong;
+  EXPECT_TRUE(add(1e-9).empty());
+
+  UnevenPile uneven;
+  uneven.volumes[uneven.pile.block.bottom[7]] = 0.29e-9;
+  MetaballContact<double, 3> stiff(with_friction), unlike(with_friction);  // k~ = 0.3
+  uneven.declare(stiff);
+  const std::string light = message_of([&] { uneven.pile.apply(stiff, dt); });
+  EXPECT_NE(light.find("particle " + std::to_string(uneven.pile.block.bottom[7]) + " of 'block'"), std::string::npos)
+      << light;
+  EXPECT_NE(light.find("the volume 0.29"), std::string::npos) << light;
+
+  uneven.volumes[uneven.pile.block.bottom[7]] = 1e-9;
+  uneven.declare(unlike);
+  unlike.add_pair(unlike.add_organ({.name = "other", .slaves = {}, .masters = uneven.pile.plate.bottom}),
+                  unlike.add_organ({.name = "block again", .slaves = uneven.pile.block.bottom}),
+                  {.roles = hmps::Roles::only_second_is_slave});
+  const std::string two = message_of([&] { uneven.pile.apply(unlike, dt); });
+  EXPECT_NE(two.find("two organs give particle "), std::string::npos) << two;
 }
 
 TEST(Kick, RefusesWhatIsTooLightForThePenalty) {

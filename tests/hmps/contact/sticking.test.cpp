@@ -225,19 +225,21 @@ TEST(Sticking, RejectsWhatIsNoHistory) {
   unsorted[history.size() - 7] = 0;  // the number of the last entry
   fails(unsorted, "all of it and unchanged");
   const hmps::ContactSettings settings{.spacing = l0, .density = density, .friction = 1};
-  hmps::MetaballContact<double, 3> corrected(settings);
+  hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::CorrectedFriction> corrected(settings);
   scene.pile.declare(corrected);
   EXPECT_THROW(corrected.restore_history(history), hmps::InputError);
   EXPECT_EQ(scene.contact.history(), history) << "a failure changes nothing";
 }
 
-TEST(Sticking, HasTheSameBitsInAnyOrder) {
+TEST(Sticking, HasTheSameBitsInAnyOrderAndHoweverOldTheLists) {
   const hmps::ContactSettings with_friction{.spacing = l0, .density = density, .friction = 0.3};
+  hmps::ContactSettings often_rebuilt = with_friction;
+  often_rebuilt.margin = 0.01;
   bodies::Pile<double, 3> pile(1.1, l0);
   pile.shake(0.05, 0.03, 4);
-  Contact serial(with_friction), reversed(with_friction);
-  for (Contact* contact : {&serial, &reversed}) pile.declare(*contact);
-  std::size_t sticking = 0, contacts = 0;
+  Contact serial(with_friction), reversed(with_friction), rebuilt(often_rebuilt);
+  for (Contact* contact : {&serial, &reversed, &rebuilt}) pile.declare(*contact);
+  std::size_t sticking = 0, contacts = 0, rebuilds = 0;
   for (int step = 0; step < 60; ++step) {
     for (const Index i : pile.block.all) pile.x[i] += Point(2e-7, 1e-7, -4e-6);
     const auto report = pile.apply(serial, dt);
@@ -245,9 +247,64 @@ TEST(Sticking, HasTheSameBitsInAnyOrder) {
     const auto bits = pile.f;
     pile.apply(reversed, dt, bodies::Loops{.backwards = true});
     ASSERT_EQ(bits, pile.f) << "step " << step;
+    rebuilds = pile.apply(rebuilt, dt).rebuilds - report.rebuilds;
+    ASSERT_EQ(bits, pile.f) << "other lists, step " << step;
   }
   EXPECT_GT(contacts, sticking);
   EXPECT_GT(contacts, 100U);
+  EXPECT_GT(rebuilds, 10U);
+}
+
+// Spring and damping act only where there is friction.
+TEST(Sticking, CostsNothingWithoutFriction) {
+  using Corrected = hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::CorrectedFriction>;
+  const hmps::ContactSettings frictionless{.spacing = l0, .density = density};
+  bodies::Pile<double, 3> pile(0.9, l0);
+  pile.shake(0.05, 0.03, 4);
+  Contact contact(frictionless);
+  Corrected corrected(frictionless);
+  pile.declare(contact);
+  pile.declare(corrected);
+  for (int step = 0; step < 10; ++step) {
+    for (const Index i : pile.block.all) {
+      pile.x[i] += Point(2e-6, 1e-6, 0);
+      pile.v[i] = Point(0.2, 0.1, -0.3);
+    }
+    const auto report = pile.apply(contact, dt);
+    ASSERT_GT(report.contacts, 0U);
+    const auto bits = pile.f;
+    pile.apply(corrected, dt);
+    ASSERT_EQ(bits, pile.f) << "step " << step;
+  }
+  EXPECT_EQ(contact.history()[2], 0) << "positions stored";
+}
+
+TEST(Sticking, BeginsWhereFrictionIsSwitchedOn) {
+  const auto force_after = [](bool moves_before) {
+    bodies::Pile<double, 3> pile(0.9, l0);
+    Contact contact({.spacing = l0, .density = density, .friction = 0.5});
+    pile.declare(contact);
+    const auto slide = [&](double by) {
+      for (const Index i : pile.block.all) pile.x[i][0] += by;
+      pile.apply(contact, dt);
+    };
+    const double way = 0.001 * l0;
+    slide(moves_before ? -3 * way : 0);
+    if (moves_before) slide(way);  // stretches the springs
+    contact.set_friction(0);
+    slide(moves_before ? way : 0);
+    if (moves_before) slide(way);
+    contact.set_friction(0.5);
+    slide(0);
+    return pile.f;
+  };
+  const auto moved = force_after(true), kept = force_after(false);
+  double largest = 0, off = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    largest = std::max(largest, kept[i].norm());
+    off = std::max(off, (moved[i] - kept[i]).norm());
+  }
+  EXPECT_LT(off, 1e-6 * largest);
 }
 
 }  // namespace sticking_test

@@ -32,6 +32,7 @@ class ActiveRows {
     Index particle;
     std::uint8_t flags;
     Index rows, entries;  // where its rows as a slave begin in slave_rows, and its entries as a master
+    S inverse_volume;     // l0^D / V
   };
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -77,9 +78,9 @@ void ActiveRows<S>::number_awake(const OrganPairs& organs) {
   for (std::size_t i = 0; i < awake_of_.size(); ++i)
     if (awake_of_[i] != no_index) {
       awake_of_[i] = static_cast<Index>(awake_.size());
-      awake_.push_back({organs.particle()[i], organs.flags()[i], 0, 0});
+      awake_.push_back({organs.particle()[i], organs.flags()[i], 0, 0, static_cast<S>(1 / organs.volume()[i])});
     }
-  awake_.push_back({0, 0, 0, 0});
+  awake_.push_back({0, 0, 0, 0, 0});
 }
 
 template <class S>

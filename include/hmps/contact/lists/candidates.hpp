@@ -43,7 +43,7 @@ class Candidates {
       : normal_density_(spacing), margin_(margin), particles_(spacing, static_cast<S>(Kernel::radius) * spacing) {}
 
   std::size_t add_organ(const Organ& organ) {
-    const std::size_t added = organs_.add_organ(organ, static_cast<double>(normal_density_.spacing()));
+    const std::size_t added = organs_.add_organ(organ, static_cast<double>(normal_density_.spacing()), D);
     numbered_ = built_ = false;
     return added;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,6 +13,7 @@
 
 #include "hmps/contact/organ.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/cell_volume.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
@@ -50,14 +52,16 @@ class OrganPairs {
     Index particle, number;
     std::uint8_t flags;
     double radius;  // r_0 in m of a slave
+    double volume;  // over l0^D
   };
 
-  /// Returns the number of the organ. Throws `InputError` if it is empty, and for a slave whose radius is below a
-  /// fiftieth or above three quarters of `spacing` (m).
-  std::size_t add_organ(const Organ& organ, double spacing);
+  /// Returns the number of the organ, in `dimensions`. Throws `InputError` if it is empty, for a slave whose radius is
+  /// below a fiftieth or above three quarters of `spacing` (m), and for a volume that is not one of a particle.
+  std::size_t add_organ(const Organ& organ, double spacing, int dimensions = 3);
   /// Returns the number of the pair. Throws `InputError` as `MetaballContact::add_pair` says.
   std::size_t add_pair(std::size_t a, std::size_t b, const PairSettings& settings);
-  /// Numbers the particles. Call it after the last organ has been added.
+  /// Numbers the particles. Call it after the last organ has been added. Throws `InputError` if two organs give a
+  /// particle different volumes.
   void number_particles();
 
   [[nodiscard]] const std::vector<OrganRange>& organs() const { return organs_; }
@@ -67,6 +71,10 @@ class OrganPairs {
   /// The particles by number, ascending, and their roles in any organ.
   [[nodiscard]] const std::vector<Index>& particle() const { return particle_; }
   [[nodiscard]] const std::vector<std::uint8_t>& flags() const { return flags_; }
+  /// Their volumes over l0^D.
+  [[nodiscard]] const std::vector<double>& volume() const { return volume_; }
+  /// The least of these volumes, or 1 if that is less.
+  [[nodiscard]] double least_volume() const { return least_volume_; }
   /// r_0 in m of the slave of a side at `slot`.
   [[nodiscard]] double slave_radius(std::size_t side, std::size_t slot) const {
     return members_[organs_[sides_[side].slaves].begin + slot - sides_[side].first_slot].radius;
@@ -90,11 +98,11 @@ class OrganPairs {
       if (member.flags & role) particles.push_back(member.particle);
     return particles;
   }
-  /// Calls `visit(i)` for each particle of organ `o` that forces move.
+  /// Calls `visit(member)` for each member of organ `o` that forces move.
   template <class Visit>
   void for_each_movable(std::size_t o, Visit&& visit) const {
     for (const Member& member : members_of(o))
-      if (!(member.flags & is_prescribed)) visit(member.particle);
+      if (!(member.flags & is_prescribed)) visit(member);
   }
 
  private:
@@ -105,6 +113,7 @@ class OrganPairs {
     return at != last && at->particle == particle && (at->flags & is_slave) != 0;
   }
   [[nodiscard]] static double checked_radius(const Organ& organ, Index slave, double spacing);
+  [[nodiscard]] static double checked_volume(const Organ& organ, Index particle, double spacing, int dimensions);
   void check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const;
   [[nodiscard]] std::vector<Index> common(std::size_t a, std::size_t b, std::uint8_t role) const;
 
@@ -114,10 +123,12 @@ class OrganPairs {
   std::vector<Member> members_;
   std::vector<Index> particle_;
   std::vector<std::uint8_t> flags_;
+  std::vector<double> volume_;
   std::size_t slots_ = 0, views_ = 0;
+  double least_volume_ = 1;
 };
 
-inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
+inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing, int dimensions) {
   require(!organ.slaves.empty() || !organ.masters.empty(), "hmps: organ '", organ.name,
           "' has neither slaves nor masters; give the indices of its surface particles");
   std::vector<std::pair<Index, std::uint8_t>> all;
@@ -136,7 +147,9 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing) {
     const double radius = organ.radius && at->second == is_slave ? checked_radius(organ, i, spacing) : spacing / 2;
     auto flags = static_cast<std::uint8_t>(organ.prescribed && organ.prescribed(i) ? is_prescribed : 0);
     for (; at != all.end() && at->first == i; ++at) flags = static_cast<std::uint8_t>(flags | at->second);
-    own.push_back({i, no_index, flags, radius});
+    const double volume = organ.volume ? checked_volume(organ, i, spacing, dimensions) : 1;
+    least_volume_ = std::min(least_volume_, volume);
+    own.push_back({i, no_index, flags, radius, volume});
   }
   views_ = std::max(views_, static_cast<std::size_t>(all.back().first) + 1);
   organs_.push_back({organ.name, members_.size(), members_.size() + own.size()});
@@ -152,6 +165,15 @@ inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double
           " of organ '", organ.name, "' has a radius of ", radius, " m; give about half the spacing of ", spacing,
           " m, a length from ", least * spacing, " to ", most * spacing, " m");
   return radius;
+}
+
+inline double OrganPairs::checked_volume(const Organ& organ, Index particle, double spacing, int dimensions) {
+  const double volume = organ.volume(particle), cell = std::pow(spacing, dimensions), share = volume / cell;
+  require(is_finite(share) && share * volume_factor_of_bonds > 1 && share < volume_factor_of_bonds, "hmps: particle ",
+          particle, " of organ '", organ.name, "' has a volume of ", volume, " m", dimensions,
+          ", but a cube of the spacing of ", spacing, " m has ", cell, " m", dimensions,
+          "; give the volume of this one particle, in metres");
+  return share;
 }
 
 inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
@@ -238,10 +260,15 @@ inline void OrganPairs::number_particles() {
   std::sort(particle_.begin(), particle_.end());
   particle_.erase(std::unique(particle_.begin(), particle_.end()), particle_.end());
   flags_.assign(particle_.size(), 0);
+  volume_.assign(particle_.size(), 0);
   for (Member& member : members_) {
     const auto found = std::lower_bound(particle_.begin(), particle_.end(), member.particle);
     member.number = static_cast<Index>(found - particle_.begin());
     flags_[member.number] = static_cast<std::uint8_t>(flags_[member.number] | member.flags);
+    double& volume = volume_[member.number];
+    require(!(volume > 0) || volume == member.volume, "hmps: two organs give particle ", member.particle,
+            " volumes of ", volume, " and ", member.volume, " l0^D; give it one volume");
+    volume = member.volume;
   }
 }
 

@@ -31,7 +31,7 @@ TEST(OrganPairs, NumberEachParticleOnceInTheOrderOfIndices) {
   EXPECT_EQ(pairs.particles_of(a, is_master), (List{3, 5}));
   for (const auto& member : pairs.members()) EXPECT_EQ(pairs.particle()[member.number], member.particle);
   List movable;
-  pairs.for_each_movable(b, [&](Index i) { movable.push_back(i); });
+  pairs.for_each_movable(b, [&](const auto& member) { movable.push_back(member.particle); });
   EXPECT_EQ(movable, List{5});
   EXPECT_THROW(pairs.require_particles(9), hmps::InputError);
   EXPECT_NO_THROW(pairs.require_particles(10));
