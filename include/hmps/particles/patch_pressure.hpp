@@ -47,7 +47,7 @@ void require_extent(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
 
 /// The particles that lie within `distance` (m) of the patch, for example those to be held by `hold`, by
 /// `ControlRegion` or, as `~particles_near(...)`, by the `moves` of `relax`. At a face along the lattice, 0.99 spacings
-/// select one layer, as README.md advises; at a face at an angle to it they select one to two layers, of which
+/// select one layer, as docs/choosing.md advises; at a face at an angle to it they select one to two layers, of which
 /// `surface_layers(...).outermost` is one. Throws `InputError` if there is no such particle, for a distance that is not
 /// positive or is larger than the body, for a surface in another unit than the particles, and for a broken surface.
 template <class T, class S, Executor E = Serial>

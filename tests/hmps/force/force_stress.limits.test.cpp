@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where stress jumps or is applied, that of single layers is wrong at any spacing: the figures of README.
+// Where stress jumps or is applied, that of single layers is wrong at any spacing: the figures of docs/choosing.md.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -81,7 +81,7 @@ double sag_over_beam(double behind, int held) {
   return sag / beam;
 }
 
-// The README's advice.
+// The advice of docs/choosing.md.
 TEST(Hold, BodyBeginsToDeformAtTheHeldLayer) {
   EXPECT_NEAR(sag_over_beam(0, 1), 1.007, 0.003);
   EXPECT_NEAR(sag_over_beam(0.5, 1), 1.059, 0.003);
