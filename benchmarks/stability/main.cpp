@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the method survives: runs whose loads grow until they fail. See --help.
+// Stability limits: runs whose loads grow until they fail. See --help.
 #include <cstdio>
 #include <functional>
 #include <string>

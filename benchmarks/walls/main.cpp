@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
   using namespace walls;
   report::Study study(
       "walls",
-      "What a wall of particles feels like that is cut out of its lattice at an angle, or fitted to its "
-      "surface: drag, ripple, friction",
+      "Accuracy of particle walls that are cut out of their lattice at an angle, or fitted to their surface: drag, "
+      "ripple, friction",
       "the smooth kernel at 15 degrees, to see that the properties hold");
   return study.run(argc, argv, [&] {
     study.publish(density_table(), {"normal_density.png", "The normal density Z(y)", draw_density});

@@ -14,8 +14,8 @@ namespace swallowing {
 /// The end of the paper's swallow in s.
 inline constexpr double end_of_swallow = 2.05;
 
-/// A named choice of the settings that decide accuracy and cost. docs/swallowing.md gives the measured error and cost of
-/// each.
+/// A named choice of the settings that decide accuracy and cost. docs/swallowing.md gives the measured error and cost
+/// of each.
 struct Quality {
   std::string_view name;
   double spacing;         ///< l0 in m
