@@ -25,10 +25,10 @@ struct Measured {
 /// Where the rates come from.
 [[nodiscard]] inline const char* source_of(const Measured& measured) {
   if (measured != Measured{}) return "These are the rates that the command line gave.";
-  return R"(Of these, the force is
-that of docs/measured/benchmarks.md, mixed, at 300 thousand to a million particles on a quiet machine; contact follows from
-its share of the time of 20,000 particles in touch here, on a busy one (0.33 and 0.49 of the rate of the force in two
-runs; 0.35 is taken); messages are those of `--measure-network` there.)";
+  return R"(The rate of
+the force is that of docs/measured/benchmarks.md, mixed, at 300 thousand to a million particles on a quiet machine. The
+rate of contact follows from its share of the time of 20,000 particles in touch, on a busy machine (0.33 and 0.49 of the
+rate of the force in two runs; 0.35 is used). The figures for messages are those of `--measure-network` on that machine.)";
 }
 
 [[nodiscard, gnu::format(printf, 1, 2)]] inline std::string format(const char* pattern, ...) {
@@ -47,59 +47,64 @@ runs; 0.35 is taken); messages are those of `--measure-network` there.)";
 
 inline const char* const introduction = R"(# Across machines
 
-`examples/across_machines` runs two bodies, control regions and contact on any number of MPI ranks. It is made of the
-public pieces of the library; no header of hmps knows MPI or the graph partitioner. This page says how, what it costs in
-messages, and when it pays. `across_machines_count --counts docs/across_machines.txt --out docs/across_machines.md` writes
-it; the counts are in the text file, and are counted anew where that is missing (170 s of one
-core, 0.75 GB).
+`examples/across_machines` runs two bodies, control regions and contact on any number of MPI ranks. It uses only the
+public interface of the library; no header of hmps includes MPI or the graph partitioner. This page describes the
+method, its cost in messages, and the sizes at which it pays. The page is written by
+`across_machines_count --counts docs/across_machines.txt --out docs/across_machines.md`. The counts are read from the
+text file. If the file is missing, they are counted anew, which takes 170 s on one core and 0.75 GB.
 
     sudo apt-get install libopenmpi-dev libmetis-dev
     cmake --preset release && cmake --build --preset release --target across_machines across_machines_count
     mpirun -n 4 build/release/examples/across_machines/across_machines --particles 75000 --steps 2000 --out run.state
     mpirun -n 7 build/release/examples/across_machines/across_machines --particles 75000 --steps 4000 --out run.state --resume
 
-Where MPI or METIS is missing, CMake leaves the example out and says so. `tests/run` does not install them; with them its
-test `examples: across_machines` runs.
+If MPI or METIS is missing, CMake omits the example and reports this. `tests/run` does not install them. If they are
+installed, it runs the test `examples: across_machines`.
 
 ## How a run is divided
 
-- **Parts**: METIS divides the graph of bonds such that parts have about equally many particles and few bonds between
-  them. Rank 0 does that, and all ranks learn which particle is whose (`partition.hpp`).
-- **Two layers**: a rank also holds the neighbours of its particles and the neighbours of these. Its `LatticeBonds` bonds
-  its own particles and the first layer; `BondSettings::unbonded` lets the second layer have no bonds. `restrict_to`
-  evaluates the force on its own particles alone. After each drift, positions of both layers and velocities of the
-  first come from the ranks that own them (`messages.hpp`). `mean_dilatation` would need two more layers.
-- **Contact**: each rank gathers the surface particles that decide about the forces on its own ones: what these can meet,
-  what that can meet, and so on four times, since friction depends on the load of both sides (`meeting.hpp`). It
-  evaluates contact among what it gathered and keeps the forces on its own particles. All ranks together survey who can
-  meet whom when a surface particle has moved by a quarter of a spacing or has stretched by a twentieth.
-- **Checkpoints**: rank 0 collects the state in the order of the scene and replaces the file in one go. Any number of ranks
-  can resume it.
+- **Parts**: METIS partitions the bond graph into parts of nearly equal size. Few bonds join different parts. Rank 0
+  computes the partition and sends the owner of each particle to all ranks (`partition.hpp`).
+- **Two layers**: a rank also stores the neighbours of its particles and the neighbours of these. Its `LatticeBonds`
+  bonds its own particles and the first layer; `BondSettings::unbonded` permits the second layer to have no bonds.
+  `restrict_to` evaluates the force on its own particles alone. After each drift, a rank receives the positions of both
+  layers and the velocities of the first layer from the ranks that own them (`messages.hpp`). `mean_dilatation` would
+  need two more layers.
+- **Contact**: each rank gathers every surface particle that affects the forces on its own particles: those that these
+  can meet, those that the former can meet, and so on, four times, because friction depends on the load of both sides
+  (`meeting.hpp`). It evaluates contact among the gathered particles and keeps the forces on its own particles. All
+  ranks update the list of possible contacts together when a surface particle has moved by a quarter of a spacing or
+  has stretched by a twentieth.
+- **Checkpoints**: rank 0 collects the state in the order of the scene and replaces the file atomically. Any number of
+  ranks can resume the run.
 
 ## The same bits on any number of ranks
 
-A run gives the bits of a program on one machine without messages (`--plain`), on any number of ranks. These make it so:
+On any number of ranks, a run gives the same bits as a program on one machine without messages (`--plain`). Three
+properties guarantee this:
 
-- the sums over bonds of a `LatticeBonds` follow the offsets of the lattice. Their order depends on the axes of the
-  sweeps, which suit the particles at hand; `BondSettings::axes` gives every part those of the whole
-  (`lattice_axes`);
-- the force rounds displacements to float after it has subtracted that of one particle;
-  `Blocks::subtract_displacement` gives every part that of the whole. Its owner sends it to all before each step;
-- the sums of contact follow the numbers of the particles, and what is gathered keeps the order of the scene. Slaves at the rim
-  of what was gathered are left out there, so that no row lacks a master.
+- The sums over the bonds of a `LatticeBonds` follow the offsets of the lattice. Their order depends on the axes of the
+  sweeps, which are chosen to suit the particles. `BondSettings::axes` gives every part the axes of the whole body
+  (`lattice_axes`).
+- The force subtracts the displacement of one particle before it rounds displacements to float.
+  `Blocks::subtract_displacement` gives every part the displacement that is subtracted in the whole body. The owner of
+  that particle sends it to all ranks before each step.
+- The sums of contact follow the numbers of the particles, and the gathered particles keep the order of the scene.
+  Slaves at the rim of the gathered particles are left out, so that no row lacks a master.
 
-Not so for a `BondList`, whose order of neighbours follows from all particles together. And should contact report a
-touch seen late (`ContactReport::late`), bits may depend on the number of ranks; the program says so.
+`BondList` does not have this property: its neighbour order depends on all particles. If `ContactReport::late` is not
+zero, contact has detected a touch late, and the bits may depend on the number of ranks; the program reports this.
 
-## What ends a run
+## Errors
 
-Each ends with a message that names the rank, and leaves the latest checkpoint whole: a rank that dies (mpirun names its
-signal and ends the others), a state that is not finite, a particle lost in a wall, a part without particles, a
-checkpoint that is damaged or of another run. A rank without contact is none of them: it goes on without.
+Each of these errors ends the run with a message that names the rank, and leaves the latest checkpoint intact: a rank
+that dies (mpirun names its signal and ends the others), a state that is not finite, a particle lost in a wall, a part
+without particles, and a checkpoint that is damaged or belongs to another run. A rank without contact continues
+normally.
 
-Limits: every rank makes the whole scene once, at the start, and rank 0 the graph of all bonds, so that the memory of one
-machine limits the size. A division is made once, for the start of the run. Parts are balanced by particles, not by
-contact. Messages are not hidden behind work, and there is one thread a rank.
+Limits: every rank makes the whole scene once, at the start, and rank 0 makes the graph of all bonds, so the memory of
+one machine limits the size. The partition is computed once, at the start of the run. Parts are balanced by the number
+of particles, not by contact. Communication does not overlap computation. Each rank uses one thread.
 )";
 
 /// A table of all sizes and numbers of parts: `cell(count)` is the text of each.
@@ -129,29 +134,29 @@ template <class Cell>
   std::string text = R"(
 ## Counted
 
-Parts of the scene at its start, the block lying on the plate. Columns are numbers of parts. Read along a row for strong
-scaling; each row has four times the particles of the one below it, so that two columns to the right and one row up is
-weak scaling. Up to 400 thousand particles METIS divides the graph of the particles, beyond that the graph of cubes with 2,
-and beyond three million with 4 particles along each side. Cubes that touch across the contact are joined in the graph,
+The scene is counted at its start, when the block lies on the plate. Each column is a number of parts. A row shows strong
+scaling. Each row has four times the particles of the row below it, so two columns to the right and one row up show weak
+scaling. Up to 400 thousand particles METIS partitions the graph of the particles; beyond that, the graph of cubes with 2
+particles along each side, and beyond three million with 4. Cubes that touch across the contact are joined in the graph,
 )" + std::to_string(contact_weight) +
-                     R"( times as strongly as by bonds (`--contact-weight`, 0: not at all).
+                     R"( times as strongly as by bonds (`--contact-weight`; 0: not at all).
 
-Bytes that the part with most of them receives in each step for its two layers (48 a particle of the first, 24 of the
-second):
+Largest number of bytes that a part receives in each step for its two layers (48 for a particle of the first layer, 24
+of the second):
 
 )";
   text += table(all, [](const Count& c, const Count&) { return c.parts == 1 ? "0" : kilobytes(c.bytes); });
-  text += "\nThe same for contact (84 a particle):\n\n";
+  text += "\nThe same for contact (84 for a particle):\n\n";
   text += table(all, [](const Count& c, const Count&) { return c.parts == 1 ? "0" : kilobytes(c.contact); });
-  text += "\nReceived by all parts together:\n\n";
+  text += "\nBytes that all parts receive together:\n\n";
   text += table(all, [](const Count& c, const Count&) { return c.parts == 1 ? "0" : kilobytes(c.all_bytes); });
-  text += "\nMost parts that one part hears from:\n\n";
+  text += "\nLargest number of parts that send to one part:\n\n";
   text += table(all, [](const Count& c, const Count&) { return format("%zu", c.peers); });
-  text += "\nBalance: particles of the largest part over the mean:\n\n";
+  text += "\nBalance, the particles of the largest part over the mean:\n\n";
   text += table(all, [](const Count& c, const Count&) { return format("%.2f", c.balance()); });
-  text += "\nMost surface particles that one part gathers for contact, its own included:\n\n";
+  text += "\nLargest number of surface particles that one part gathers for contact, including its own:\n\n";
   text += table(all, [](const Count& c, const Count&) { return amount(static_cast<double>(c.gathered)); });
-  text += "\nParts without contact:\n\n";
+  text += "\nNumber of parts without contact:\n\n";
   text += table(all, [](const Count& c, const Count&) { return format("%zu", c.without_contact); });
   return text;
 }
@@ -188,26 +193,27 @@ second):
                                       {"InfiniBand of 200 Gb/s, 2 us, assumed", 2e-6, 22e9}};
   std::string text = "\n## Modelled\n\n";
   text += format(
-      "One core does %.3g million particles/s in all but contact and %.3g million gathered particles/s in contact; a\n"
-      "message between two ranks over TCP takes %.3g us, and %.3g GB/s. %s\n\n"
-      "A step takes as long as its slowest part, each on a machine of its own:\n\n"
+      "One core evaluates %.3g million particles/s without contact and %.3g million gathered particles/s in contact.\n"
+      "A message between two ranks over TCP takes %.3g us, at %.3g GB/s. %s\n\n"
+      "Each part runs on its own machine. A step takes as long as its slowest part:\n\n"
       "    (own + first layer / 2) / force rate / cores + gathered / contact rate / cores\n"
       "      + (2 + 3 log2 parts) latency + bytes / bandwidth\n\n"
-      "Cores are taken to share the work of a machine evenly, which the example, with one thread a rank, leaves to\n"
-      "several ranks on each machine. Surveys are left out; the example prints their time. Networks other than\n"
-      "that measured are assumed. This is a model: nothing was run on more than one machine.\n",
+      "The model assumes that the cores of a machine share its work evenly; because each rank of the example uses one\n"
+      "thread, this requires several ranks on each machine. Updates of the list of possible contacts are left out;\n"
+      "the example prints their time. The figures of all other networks are assumed. Nothing was run on more than\n"
+      "one machine.\n",
       m.force, m.contact, m.latency, m.bandwidth, source_of(m));
   for (const double cores : {2., 32.}) {
     const Rates rates{m.force * 1e6, m.contact * 1e6, cores};
     const Network& network = cores > 2 ? networks[2] : networks[0];
-    text += format("\nTimes as fast as one machine, %.0f cores each, %s:\n\n", cores, network.name);
+    text += format("\nSpeed relative to one machine, with %.0f cores each, %s:\n\n", cores, network.name);
     text += table(all, [&](const Count& c, const Count& one) {
       return format("%.3g", time_of_step(one, rates, network) / time_of_step(c, rates, network));
     });
   }
   text +=
-      "\nHow many particles a scene needs so that two machines are 1.5 times as fast as one, and 16 machines 8 "
-      "times:\n\n";
+      "\nNumber of particles from which two machines are 1.5 times as fast as one, and 16 machines 8 times as "
+      "fast:\n\n";
   text +=
       "| network | 2 cores: two machines | 16 machines | 32 cores: two machines | 16 machines "
       "|\n|---|---|---|---|---|\n";
@@ -218,7 +224,7 @@ second):
         text += " " + needed(stay_below(all, {m.force * 1e6, m.contact * 1e6, cores}, network, doublings, gain)) + " |";
     text += "\n";
   }
-  text += "\nBelow the numbers for two machines, stay on one.\n";
+  text += "\nUse one machine for scenes with fewer particles than the number for two machines.\n";
   return text;
 }
 
