@@ -6,8 +6,8 @@
 
 #include "numbers.hpp"
 
-/// Validators for the numbers of a command line. CLI11 alone takes 0x1 for one, 010 for eight, and inf and nan as they
-/// are.
+/// Validators for the numbers of a command line. CLI11 alone reads 0x1 as one and 010 as eight, and accepts inf and
+/// nan.
 namespace examples {
 
 /// A finite number in decimal notation.
@@ -19,7 +19,7 @@ namespace examples {
       "");
 }
 
-/// The same within [low, high], with a message that tells the unit.
+/// The same within [low, high], with a message that contains the unit.
 [[nodiscard]] inline CLI::Validator within(double low, double high, const std::string& what) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
@@ -30,8 +30,8 @@ namespace examples {
       "");
 }
 
-/// A whole number in decimal notation within [low, high]. To be used with `transform`: it takes off leading zeros and
-/// signs, which CLI11 reads as another notation.
+/// An integer in decimal notation within [low, high]. Use it with `transform`: it removes leading zeros and signs,
+/// which CLI11 reads as another notation.
 [[nodiscard]] inline CLI::Validator whole_within(long low, long high, const std::string& what) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {

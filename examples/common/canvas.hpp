@@ -31,11 +31,10 @@ struct Colour {
   [[nodiscard]] constexpr Colour opacity(double value) const { return {r, g, b, value}; }
 };
 
-/// Where the point given to `Canvas::text` lies in the text: left end, middle or right end of its
-/// base line.
+/// The place of the point given to `Canvas::text` in the text: the left end, middle or right end of its base line.
 enum class Anchor { left, middle, right };
 
-/// A picture to draw upon, in pixels, y downward, white at first. A thin cover of cairo.
+/// An image in pixels, y downward, white at first. A thin wrapper of cairo.
 class Canvas {
  public:
   Canvas(int width, int height) : width_(width), height_(height) {
@@ -56,7 +55,7 @@ class Canvas {
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  /// For what this cover does not offer.
+  /// The cairo context, for operations that `Canvas` does not provide.
   [[nodiscard]] cairo_t* cairo() const { return context_; }
 
   void rectangle(double x, double y, double w, double h, const Colour& fill) {
@@ -100,7 +99,7 @@ class Canvas {
     cairo_move_to(context_, x - shift * advance(words), y);
     cairo_show_text(context_, words.c_str());
   }
-  /// The same, but legible on any ground: with a border of `halo` around the letters.
+  /// The same, but legible on any background: with a border of `halo` around the letters.
   void text_with_halo(double x, double y, const std::string& words, double size, const Colour& colour,
                       const Colour& halo, Anchor anchor = Anchor::left, bool bold = false) {
     set(halo);

@@ -15,7 +15,7 @@
 
 namespace examples {
 
-/// The shortest decimal text that reads back as the same number. Knows no locale.
+/// The shortest decimal text that reads back as the same number. Independent of the locale.
 [[nodiscard]] inline std::string to_text(double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof(digits), value).ptr;
@@ -30,12 +30,12 @@ namespace examples {
   return line;
 }
 
-/// A table of numbers in a text file that can be read at any moment while it grows: every row is
-/// handed to the system as a whole.
+/// A table of numbers in a text file that can be read at any moment while it grows: each row is passed to the system
+/// as a whole.
 class CsvWriter {
  public:
-  /// Opens the table at `path`. With `keep` the file is continued behind the bytes that are there,
-  /// otherwise it starts anew with the line `header`.
+  /// Opens the table at `path`. With `keep`, rows are appended to the file; otherwise the file is replaced and starts
+  /// with the line `header`.
   CsvWriter(const fs::path& path, std::string_view header, bool keep = false) : path_(path) {
     file_ = std::fopen(path.c_str(), keep ? "ab" : "wb");
     require(file_ != nullptr, "cannot write ", path.string(), ": ", std::strerror(errno));
@@ -47,7 +47,7 @@ class CsvWriter {
   ~CsvWriter() { std::fclose(file_); }
 
   void add(std::span<const double> row) { put(csv_line(row)); }
-  /// Writes to the disk what was added so far: from then on a loss of power leaves it whole.
+  /// Flushes the rows added so far to the disk, so that they survive a loss of power.
   void flush_to_disk() {
     require(::fsync(::fileno(file_)) == 0, "cannot write ", path_.string(), " to the disk: ", std::strerror(errno));
   }

@@ -16,24 +16,24 @@
 
 #include "error.hpp"
 
-/// Small helpers that the example programs share. They are no part of the library.
+/// Helpers that the example programs share. They are not part of the library.
 namespace examples {
 
 namespace fs = std::filesystem;
 
-/// Writes to the disk what the folder at `path` lists, such as a file that was made or renamed in it: what is flushed
-/// of the file itself is of no use after a loss of power while the folder does not name it.
+/// Flushes the entries of the folder at `path` to the disk, such as a file that was created or renamed in it. After a
+/// loss of power, a flushed file is lost if its folder entry is not on the disk.
 inline void flush_folder(const fs::path& path) {
   const int folder = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool flushed = folder >= 0 && (::fsync(folder) == 0 || errno == EINVAL);  // EINVAL: it has no need of it
+  const bool flushed = folder >= 0 && (::fsync(folder) == 0 || errno == EINVAL);  // EINVAL: not needed
   const int reason = errno;
   if (folder >= 0) ::close(folder);
   require(flushed, "cannot write the folder ", path.string(), " to the disk: ", std::strerror(reason));
 }
 
-/// Replaces the file at `path` by `bytes`, such that at any moment, also after kill -9 or a loss of
-/// power, either the old or the new file is there and whole: written beside it, flushed to the disk,
-/// then renamed. Throws `InputError` with the reason if that fails.
+/// Replaces the file at `path` by `bytes` atomically: at any moment, also after kill -9 or a loss of power, either the
+/// old or the new file is there and complete. The new file is written beside the old one, flushed to the disk, then
+/// renamed. Throws `InputError` with the reason if this fails.
 inline void write_atomically(const fs::path& path, std::string_view bytes) {
   const fs::path temporary = path.string() + ".part";
   const auto fail = [&](const char* what) {
@@ -65,8 +65,8 @@ inline void write_atomically(const fs::path& path, std::string_view bytes) {
   return bytes;
 }
 
-/// Makes the folder at `path` if it is missing and proves that files can be written there, so that a
-/// long run does not end in front of a closed door. Throws `InputError` that names the folder.
+/// Creates the folder at `path` if it is missing and checks that files can be written there, so that a long run does
+/// not fail at its first write. Throws `InputError` that names the folder.
 inline void prepare_folder(const fs::path& path) {
   std::error_code problem;
   fs::create_directories(path, problem);

@@ -16,15 +16,15 @@
 
 namespace examples {
 
-/// Keeps other processes, and other threads that ask for it, from writing into a folder while it lives: two runs that
-/// write into one folder would spoil each other's results. The system takes it back however the process ends.
+/// Locks a folder during its lifetime against other processes and threads that use the same lock: two runs that write
+/// into one folder would overwrite each other's results. The system releases the lock however the process ends.
 class FolderLock {
  public:
   enum class Taken { fail, wait };
 
-  /// Locks the folder at `path`, which must exist, by its file .lock. Where another process has locked it, throws
-  /// `InputError` that names folder and process, or says so on standard error and waits until it is free. Where the
-  /// file system knows no locks, says so on standard error and goes on.
+  /// Locks the folder at `path`, which must exist, by its file .lock. If another process has locked it, throws an
+  /// `InputError` that names folder and process, or writes a message to standard error and waits until the lock is
+  /// free. If the file system has no locks, writes a message to standard error and continues without one.
   explicit FolderLock(const fs::path& path, Taken taken = Taken::fail) {
     const fs::path name = path / ".lock";
     file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -46,7 +46,7 @@ class FolderLock {
       std::cerr << message("warning: cannot lock ", name.string(), ": ", std::strerror(problem),
                            "; see yourself that no other run writes there\n");
     const std::string process = std::to_string(::getpid());
-    // Only for the message above: without it the lock holds all the same.
+    // Only for the message above; the lock does not depend on it.
     if (::ftruncate(file_, 0) == 0) static_cast<void>(::pwrite(file_, process.data(), process.size(), 0) == 0);
   }
   FolderLock(const FolderLock&) = delete;
@@ -54,7 +54,7 @@ class FolderLock {
   ~FolderLock() { ::close(file_); }
 
  private:
-  /// 0 once the lock is taken, or the error number.
+  /// Returns 0 when the lock is taken, otherwise the error number.
   [[nodiscard]] int lock(int how) const {
     int problem = 0;
     do problem = ::flock(file_, how) == 0 ? 0 : errno;

@@ -9,9 +9,9 @@
 
 namespace examples {
 
-/// The number that the whole of `text` is in decimal notation: -2, 0.5, 1e-5 or, where `T` is an integer, 010, which is
-/// ten. Nothing for all else: other notations (0x1), signs of digits (1_000), what stands before or behind a number,
-/// what is not finite, and what `T` cannot hold.
+/// The number whose decimal notation is the whole of `text`: -2, 0.5, 1e-5 or, if `T` is an integer, 010, which is ten.
+/// Returns no value otherwise: for other notations (0x1), digit separators (1_000), text before or after the number,
+/// and numbers that are not finite or that `T` cannot represent.
 template <class T>
 requires std::is_arithmetic_v<T>
 [[nodiscard]] std::optional<T> decimal(std::string_view text) {

@@ -16,7 +16,7 @@
 
 namespace examples {
 
-/// The library's field, made of vectors that are collected already.
+/// A field of the library, made from vectors of values.
 struct Field : hmps::VtkField {
   /// Values of `T`, the type that VTK calls `type`.
   template <class T>
@@ -27,7 +27,7 @@ struct Field : hmps::VtkField {
   }
 };
 
-/// A field of whole numbers, such as the organ of each particle.
+/// A field of integers, such as the organ of each particle.
 template <class Range>
 [[nodiscard]] Field whole_numbers(std::string name, const Range& range) {
   std::vector<std::int32_t> values;
@@ -35,7 +35,7 @@ template <class Range>
   return Field::of(std::move(name), 1, "Int32", values);
 }
 
-/// A field of single precision, which is enough to look at, from a view of any scalar.
+/// A field in single precision, which is enough for display, from a view of any scalar.
 template <class T, int N>
 [[nodiscard]] Field numbers(std::string name, const hmps::View<T, N>& view) {
   std::vector<float> values;

@@ -19,7 +19,7 @@
 
 #include "../common/error.hpp"
 
-/// The forces of the paper on any state that one hands over, for checking another code's against.
+/// Computes the paper's forces for a given state, for comparison with another code.
 namespace force_probe {
 
 using Vector = std::array<double, 3>;
@@ -92,7 +92,7 @@ void add_contact(const State& state, const Settings& settings, const hmps::Matri
 }
 
 /// The forces on `state`, evaluated in the scalar type `S`. All of them, contact too, are those at
-/// the given velocities: for the contact of \paper{3} hand over v* of \paper{2}. Throws `InputError`
+/// the given velocities: for the contact of \paper{3} pass v* of \paper{2}. Throws `InputError`
 /// for a state that has none, such as an inverted particle.
 template <class S>
 [[nodiscard]] Forces probe(const State& state, const Settings& settings) {
