@@ -40,7 +40,9 @@ struct RequireRow {
 /// have several types. A row has `row.gather(slots)`, which reads `Slots<N>` and returns an object whose `[c]` is
 /// component c for the neighbour in each lane; `row.offset(c)`, component c of r0; `row.along(c)`, which is false if
 /// that component is zero in all lanes and may be skipped; and `row.weight()`, w, zero in lanes without a bond.
-/// `for_each_bond(i, visit)` calls `visit(j, r0, w)` for the bonds of particle i. Models: `BondList`, `LatticeBonds`.
+/// `for_each_bond(i, visit)` calls `visit(j, r0, w)` for the bonds of particle i. `last_slot(block)` is the slot from
+/// which the last row reads, as a hint for prefetching. `Slots<N>` stores N numbers per particle: `slots(c, slot)`,
+/// writable, `lanes(c, slot)`, `keep(c, slot, lanes)`, and `bytes()`, its memory. Models: `BondList`, `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &&
     requires(const B& bonds, typename B::template Slots<1>& slots, const typename B::template Slots<1>& kept,
@@ -62,8 +64,9 @@ struct IsBonds : std::bool_constant<Bonds<B>> {};
 template <class B>
 struct RequireBonds {
   static_assert(IsBonds<B>::value,
-                "hmps: bonds need to be derived from Blocks<K, D> and to have Slots<N>, for_each_row(block, visit) and "
-                "for_each_bond(i, visit), const; see Bonds");
+                "hmps: bonds need to be derived from Blocks<K, D> and to have for_each_row(block, visit), "
+                "for_each_bond(i, visit) and last_slot(block), const, and Slots<N> with a writable slots(c, slot), "
+                "lanes(c, slot), keep(c, slot, lanes) and bytes(); see Bonds");
 };
 }  // namespace detail
 
