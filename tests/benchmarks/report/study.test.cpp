@@ -57,7 +57,7 @@ TEST_F(Program, WritesThePageInTheFolderWhereItRuns) {
   EXPECT_TRUE(fs::exists(path("study.md")));
   EXPECT_EQ(examples::read_file(path("images/one.png")), "drawn");
 }
-TEST_F(Program, WritesNoPageThatIsNotAskedFor) {
+TEST_F(Program, WritesNoPageUnlessRequested) {
   ASSERT_EQ(run({"--out", path("out")},
                 [](Study& study) {
                   EXPECT_FALSE(study.quick);
@@ -66,7 +66,7 @@ TEST_F(Program, WritesNoPageThatIsNotAskedFor) {
             0);
   EXPECT_TRUE(fs::exists(path("out/one.csv")));
 }
-TEST_F(Program, SaysWhatDoesNotHoldOnThePageAndByItsExitCode) {
+TEST_F(Program, ReportsFailedChecksOnThePageAndByItsExitCode) {
   const auto measure = [](Study& study) {
     Table table{.name = "one", .header = {"a"}};
     table.check(false, "it is broken");
@@ -76,7 +76,7 @@ TEST_F(Program, SaysWhatDoesNotHoldOnThePageAndByItsExitCode) {
   EXPECT_EQ(run({"--out", path("out"), "--document", path("study.md")}, measure), 1);
   EXPECT_NE(examples::read_file(path("study.md")).find("Failed check: one: it is broken.\n"), std::string::npos);
 }
-TEST_F(Program, EndsWithTwoWhereItFails) {
+TEST_F(Program, ExitsWithTwoOnError) {
   EXPECT_EQ(run({"--out", path("out")}, [](Study&) { throw hmps::InputError("no"); }), 2);
   examples::prepare_folder(path(""));
   examples::write_atomically(path("file"), "");

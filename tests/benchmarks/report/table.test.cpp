@@ -20,14 +20,14 @@ TEST(Table, QuotesCellsThatNeedIt) {
   const Table table{.header = {"a", "b, c"}, .rows = {{"say \"no\"", "two\nlines"}, {"1", ""}}};
   EXPECT_EQ(table.csv(), "a,\"b, c\"\n\"say \"\"no\"\"\",\"two\nlines\"\n1,\n");
 }
-TEST(Table, ReadsBackWhatItWrote) {
+TEST(Table, ReadsItsOwnOutput) {
   const Table table{.header = {"a", "b"}, .rows = {{"1", "\"\""}, {",", "\n"}, {"", "plain"}}};
   std::vector<Cells> expected = table.rows;
   expected.insert(expected.begin(), table.header);
   EXPECT_EQ(read_csv(table.csv()), expected);
   EXPECT_TRUE(read_csv("").empty());
 }
-TEST(Table, NotesWhatDoesNotHold) {
+TEST(Table, RecordsFailedChecks) {
   Table table{.name = "walls", .header = {"a"}};
   table.check(true, "one");
   EXPECT_TRUE(table.broken.empty());
@@ -39,7 +39,7 @@ TEST(Cell, HoldsANumberInFull) {
   for (const double value : {0.1, 1.0 / 3, -2e-300, 12345678.9, 0.0}) EXPECT_EQ(number(in_full(value)), value);
   EXPECT_EQ(in_full(0.1), "0.1");
 }
-TEST(Cell, RefusesWhatIsNoNumber) {
+TEST(Cell, RejectsNonNumbers) {
   for (const char* cell : {"", "x", "1.5x", "1 2"}) EXPECT_THROW((void)number(cell), hmps::InputError) << cell;
 }
 

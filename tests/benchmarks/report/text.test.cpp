@@ -10,7 +10,7 @@ namespace text_test {
 
 using namespace report;
 
-TEST(Text, HasNumbersThatPeopleRead) {
+TEST(Text, FormatsNumbers) {
   EXPECT_EQ(digits(0.021049), "0.021");
   EXPECT_EQ(digits(1000), "1e+03");
   EXPECT_EQ(digits(1.5, 1), "2");
@@ -45,7 +45,7 @@ TEST(Text, KeepsAllWordsInLinesOf120) {
   }
   EXPECT_EQ(lines.back(), '\n');
 }
-TEST(Text, BreaksBehindTheLastWordThatFits) {
+TEST(Text, BreaksAfterTheLastWordThatFits) {
   const std::string full(60, 'a'), fits(59, 'b'), not_any_more(60, 'b');
   EXPECT_EQ(wrapped(full + ' ' + fits), full + ' ' + fits + '\n');
   EXPECT_EQ(wrapped(full + ' ' + not_any_more), full + '\n' + not_any_more + '\n');

@@ -16,19 +16,19 @@ using Numbers = std::vector<std::size_t>;
 
 Numbers front(const std::vector<Point>& points) { return pareto_front(points); }
 
-TEST(Front, LeavesOutWhatAnotherPointBeats) {
+TEST(Front, OmitsDominatedPoints) {
   EXPECT_EQ(front({{1, 9}, {2, 5}, {3, 6}, {4, 1}}), (Numbers{0, 1, 3}));
   EXPECT_EQ(front({{4, 1}, {3, 6}, {2, 5}, {1, 9}}), (Numbers{3, 2, 0}));
 }
-TEST(Front, OfNothingIsEmptyAndOfOnePointIsThatPoint) {
+TEST(Front, HandlesNoPointAndOnePoint) {
   EXPECT_TRUE(front({}).empty());
   EXPECT_EQ(front({{0, 0}}), Numbers{0});
 }
 TEST(Front, KeepsTheBetterOfTwoAtTheSameCost) { EXPECT_EQ(front({{1, 3}, {1, 2}, {2, 1}}), (Numbers{1, 2})); }
 TEST(Front, KeepsTheCheaperOfTwoWithTheSameError) { EXPECT_EQ(front({{2, 3}, {1, 3}, {3, 1}}), (Numbers{1, 2})); }
-TEST(Front, LetsTheFirstOfEqualPointsStandForAll) { EXPECT_EQ(front({{5, 5}, {1, 2}, {1, 2}, {1, 2}}), Numbers{1}); }
+TEST(Front, KeepsTheFirstOfEqualPoints) { EXPECT_EQ(front({{5, 5}, {1, 2}, {1, 2}, {1, 2}}), Numbers{1}); }
 
-TEST(Front, HoldsJustThePointsThatNoneDominates) {
+TEST(Front, HoldsExactlyTheNondominatedPoints) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> few(0, 12);  // so that there are ties and duplicates
   for (int trial = 0; trial < 200; ++trial) {
@@ -52,7 +52,7 @@ TEST(Front, HoldsJustThePointsThatNoneDominates) {
   }
 }
 
-TEST(Front, RefusesWhatCannotBeOrdered) {
+TEST(Front, RejectsNegativeAndNonFiniteValues) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.}) {
     EXPECT_THROW((void)front({{1, 1}, {bad, 1}}), hmps::InputError);
     EXPECT_THROW((void)front({{1, 1}, {1, bad}}), hmps::InputError);

@@ -40,7 +40,7 @@ class Vibration : public ::testing::TestWithParam<const char*> {
   static Trial run(const Settings& settings) { return run_once(scene(), settings, {}); }
 };
 
-TEST_P(Vibration, ComesNearerToTheFrequencyWhenTheSpacingIsHalved) {
+TEST_P(Vibration, ConvergesToTheFrequency) {
   const Settings half = scene().standard().with("E_hat", 0.5), full = half.with("E_hat", 1.);
   const auto error = [](const Trial& r) { return std::abs(r.errors[0]); };
   EXPECT_LT(error(run(half.with("spacing", 0.0125))), 0.7 * error(run(half.with("spacing", 0.025))));
@@ -68,7 +68,7 @@ TEST_P(Vibration, OfFittedParticlesHasTheRightFrequency) {
   EXPECT_LT(std::abs(fitted.errors[1]), 1.5 * std::abs(run(scene().standard()).errors[1])) << "of the energy";
 }
 
-TEST_P(Vibration, BreaksDownAboveTheStableStepAndSaysSo) {
+TEST_P(Vibration, ReportsInstabilityAboveTheStableStep) {
   EXPECT_TRUE(run(scene().standard().with("step", 1.05)).failed());
   EXPECT_FALSE(run(scene().standard().with("step", 0.95)).failed());
 }
@@ -96,7 +96,7 @@ TEST(Quick, HasFrontsThatAreSortedAndThatNoRunDominates) {
     }
 }
 
-TEST(Sag, ComesNearerToFiniteElementsWhenTheSpacingFalls) {
+TEST(Sag, ConvergesToFiniteElements) {
   const Scene scene = sag({.quick = true});
   const Settings coarse = scene.standard().with("spacing", 0.005), fine = coarse.with("spacing", 0.004);
   const double error = std::abs(run_once(scene, fine, {}).errors[0]);

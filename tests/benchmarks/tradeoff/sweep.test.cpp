@@ -96,7 +96,7 @@ TEST(Sweep, TakesErrorsInPerCentOfTheAnswerAndRatiosToTheStandard) {
   EXPECT_NEAR(fine->relative_seconds, 2, 1e-12);
   EXPECT_NEAR(result.find(scene.standard().with("scalar", "float"))->relative_seconds, 0.5, 1e-12);
 }
-TEST(Sweep, KeepsARunThatBrokeDownOutOfTheFront) {
+TEST(Sweep, ExcludesFailedRunsFromTheFront) {
   const Scene scene = formula();
   const Sweep result = swept(scene);
   const Trial* broken = result.find(scene.standard().with("scalar", "half"));
@@ -105,7 +105,7 @@ TEST(Sweep, KeepsARunThatBrokeDownOutOfTheFront) {
   for (const Cost& cost : costs)
     for (const Trial* run : front(scene, result, 0, cost)) EXPECT_NE(run, broken);
 }
-TEST(Sweep, ComparesWithTheReferenceWhereNothingIsKnown) {
+TEST(Sweep, ComparesWithTheReferenceWithoutAnExactAnswer) {
   Scene scene = formula();
   scene.known = nullptr;
   EXPECT_TRUE(holds_text(message_of(scene), "neither known answers nor a reference"));
@@ -141,7 +141,7 @@ TEST(Sweep, LeavesOtherProblemsOutOfTheFront) {
 }
 
 /// With the bias the error is exactly 0 at h = 0.4 and grows when h falls: no advice.
-TEST(Rules, AdviseNoRunWhoseErrorOnlyCrossesZero) {
+TEST(Rules, DoNotAdviseRunsWhoseErrorOnlyCrossesZero) {
   const Scene scene = formula();
   const Sweep result = swept(scene);
   const Trial* lucky = result.find(scene.standard().with("h", 0.4).with("bias", -0.16));
@@ -241,7 +241,7 @@ TEST(Csv, RefusesTheTableOfAnotherScene) {
   EXPECT_THROW((void)read_csv(scene, text + "x,0,double,1,1,1,1,1,1,1,\n"), hmps::InputError);
 }
 
-TEST(Agreement, SaysWhereScenesDifferAndLeavesOutWhatOneAloneTried) {
+TEST(Agreement, ReportsDifferencesAndOmitsSettingsOfASingleScene) {
   Scene one = formula(), other = formula();
   other.name = "other";
   other.parameters[2].values = {"double", "float"};
@@ -265,7 +265,7 @@ TEST(Agreement, SaysWhereScenesDifferAndLeavesOutWhatOneAloneTried) {
   EXPECT_TRUE(holds_text(same, "### No difference in errors\n\n- scalar float")) << same;
   EXPECT_TRUE(holds_text(same, "### Failures\n\n- scalar half instead of double (formula, formula)")) << same;
 }
-TEST(Settings, NameWhatIsMissingOrOfTheOtherKind) {
+TEST(Settings, NameMissingAndMistypedSettings) {
   const Settings settings = formula().standard();
   EXPECT_THROW((void)settings.number("spacing"), hmps::InputError);
   EXPECT_THROW((void)settings.number("scalar"), hmps::InputError);

@@ -27,7 +27,7 @@ std::vector<double> errors_of(const Problem& problem, int size, const Method& me
 
 /// Where the strain is the same everywhere the method is right at any spacing. The bounds stand with the problems: some
 /// roundings where nothing is solved, a multiple of the tolerance of the relaxation where something is.
-TEST(Verification, IsRightAtAnySpacingWhereTheStrainIsTheSameEverywhere) {
+TEST(Verification, IsExactForUniformStrain) {
   for (const Problem& problem : {affine_patch(), rigid_motion(), uniaxial_stress(), equibiaxial_stress(),
                                  simple_shear(), long_wall(), dispersion()})
     for (const Method& method : problem.methods) {
@@ -51,7 +51,7 @@ struct Falling {
 
 /// The tolerance of the finer run is the error of the coarser one times the ratio of the spacings to the power of
 /// the measured order.
-TEST(Verification, ErrorsFallAsTheMeasuredOrderSays) {
+TEST(Verification, ErrorsFallAtTheMeasuredOrder) {
   for (const Falling& one : {Falling{free_bar, paper, 3, 5, 2},
                              {bending_column, paper, 3, 5, 2},
                              {oscillating_plate, paper, 3, 5, 1.5},
@@ -69,7 +69,7 @@ TEST(Verification, ErrorsFallAsTheMeasuredOrderSays) {
   }
 }
 
-TEST(Verification, TheModulusOfShearWavesErrsLessThanThePapers) {
+TEST(Verification, ShearWaveModulusIsMoreAccurateThanThePapers) {
   for (const auto& [make, size] : {std::pair<Problem (*)(), int>{free_bar, 4},
                                    {bending_column, 4},
                                    {bonded_shear, 5},
@@ -82,7 +82,7 @@ TEST(Verification, TheModulusOfShearWavesErrsLessThanThePapers) {
   }
 }
 // Whatever their bulk modulus, three particles and more with 4/3 mu, two with mu.
-TEST(Verification, ThinBarsOfStiffVolumeVibrateAsTheyShould) {
+TEST(Verification, NearlyIncompressibleThinBarsVibrateCorrectly) {
   const Problem problem = rubber_bar();
   for (const int size : {3, 4})
     for (const double error : errors_of(problem, size, mean_dilatation)) EXPECT_LT(std::abs(error), 0.02) << size;

@@ -52,7 +52,7 @@ TEST(Parts, HaveEveryParticleOnceAndTwoLayersOfNeighbours) {
   }
 }
 
-TEST(Parts, AreAboutEven) {
+TEST(Parts, AreBalanced) {
   const Scene scene(20000);
   for (const int edge : {1, 2})
     for (const auto& own : own_particles(CubeGraph(scene, edge).divide(16), 16))
@@ -77,7 +77,7 @@ TEST(Parts, WithoutParticlesAreAnError) {
 }
 
 // What is reached in h steps from body to body, by sets.
-TEST(Meeting, GathersWhatDecidesAboutTheOwnForces) {
+TEST(Meeting, GathersAllParticlesThatAffectTheOwnForces) {
   const Scene scene(1300);
   const auto surface = scene.surface();
   std::vector<hmps::Vector<double, 3>> place;
@@ -115,7 +115,7 @@ TEST(Meeting, GathersWhatDecidesAboutTheOwnForces) {
 }
 
 // One part sends nothing; two halves of a scene send what lies on both sides of the cut.
-TEST(Counting, AddsUpWhatPartsBorrow) {
+TEST(Counting, SumsTheParticlesThatPartsBorrow) {
   const Scene scene(2500);
   const auto surface = scene.surface();
   std::vector<hmps::Vector<double, 3>> place;
@@ -140,7 +140,7 @@ TEST(Counting, AddsUpWhatPartsBorrow) {
 }
 
 // Two machines are twice as fast as one with 4000 particles, and 4/3 times with 1000.
-TEST(Page, SaysHowManyParticlesAreNeeded) {
+TEST(Page, StatesTheRequiredNumberOfParticles) {
   const Network network{"", 0, 1};
   const Rates rates{1, 1, 1};
   const auto row = [](std::size_t particles, std::size_t largest) {
@@ -155,7 +155,7 @@ TEST(Page, SaysHowManyParticlesAreNeeded) {
   EXPECT_EQ(text(1, 2.1), "more than counted");
   EXPECT_EQ(text(2, 1.3), "not counted in so many parts");
 }
-TEST(Page, NamesNoSourceOfOtherRates) {
+TEST(Page, OmitsTheSourceOfOtherRates) {
   const std::vector<std::vector<Count>> all{{{1000, 1, 1000}}};
   const char* source = "docs/measured/benchmarks.md";
   EXPECT_NE(page_of(all, {}, 3).find(source), std::string::npos);

@@ -39,7 +39,7 @@ Checkpoint example(std::uint64_t step, std::size_t size = 1000) {
   return c;
 }
 
-TEST(Checkpoint, GivesBackEveryBit) {
+TEST(Checkpoint, RestoresEveryBit) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "checkpoint.bin";
   EXPECT_FALSE(Checkpoint::load(path));
@@ -84,7 +84,7 @@ TEST(Checkpoint, SetTwiceKeepsTheLast) {
   EXPECT_EQ(c.value<double>("a"), 2.0);
 }
 
-TEST(Checkpoint, AnyDamageIsSeen) {
+TEST(Checkpoint, DetectsAnyDamage) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "checkpoint.bin";
   example(3, 40).save(path);

@@ -26,7 +26,7 @@ TEST(Files, AreReplacedAsAWhole) {
   EXPECT_THROW((void)examples::read_file(folder.path() / "b.txt"), InputError);
 }
 
-TEST(Files, AFolderThatCannotBeWrittenIsToldAtOnce) {
+TEST(Files, ReportsAFolderThatCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_NO_THROW(examples::prepare_folder(folder.path() / "new" / "deep"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "new" / "deep"));

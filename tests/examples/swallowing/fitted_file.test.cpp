@@ -28,7 +28,7 @@ FittedOrgans example() {
   return fitted;
 }
 
-TEST(FittedFile, GivesBackEveryBit) {
+TEST(FittedFile, RestoresEveryBit) {
   const TemporaryFolder folder;
   EXPECT_FALSE(swallowing::read_fitted(folder.path(), spacing));
   const FittedOrgans written = example();
@@ -51,7 +51,7 @@ TEST(FittedFile, IsRefusedForAnotherSpacing) {
   EXPECT_NE(text.find("fitted.bin holds particles of a spacing of 0.0024 m"), std::string::npos) << text;
 }
 
-TEST(FittedFile, SaysThatItIsDamaged) {
+TEST(FittedFile, ReportsDamage) {
   const TemporaryFolder folder;
   swallowing::write_fitted(folder.path(), example(), spacing);
   const auto path = folder.path() / "fitted.bin";

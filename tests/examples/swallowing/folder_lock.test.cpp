@@ -20,7 +20,7 @@ using examples::FolderLock;
 using hmps_test::message_of;
 using hmps_test::TemporaryFolder;
 
-TEST(FolderLock, KeepsASecondRunOut) {
+TEST(FolderLock, ExcludesASecondRun) {
   const TemporaryFolder folder;
   const auto refusal = [&] { return message_of<hmps::InputError>([&] { (void)FolderLock(folder.path()); }); };
   {
@@ -31,7 +31,7 @@ TEST(FolderLock, KeepsASecondRunOut) {
   EXPECT_EQ(refusal(), "");
 }
 
-TEST(FolderLock, EndsWithItsProcessHoweverThatEnds) {
+TEST(FolderLock, EndsWithItsProcess) {
   const TemporaryFolder folder;
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
@@ -48,7 +48,7 @@ TEST(FolderLock, EndsWithItsProcessHoweverThatEnds) {
   EXPECT_NO_THROW((void)FolderLock(folder.path(), FolderLock::Taken::wait));
 }
 
-TEST(FolderLock, SaysThatItWaits) {
+TEST(FolderLock, ReportsThatItWaits) {
   const TemporaryFolder folder;
   const auto words = folder.path() / "words";
   std::optional<FolderLock> lock(folder.path());

@@ -35,7 +35,7 @@ std::size_t files_in(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-TEST(Frames, TheListNamesEveryFileAsItComes) {
+TEST(Frames, TheListGrowsWithTheFiles) {
   const TemporaryFolder folder;
   Frames frames(folder.path());
   for (int i = 0; i < 4; ++i) {
@@ -50,7 +50,7 @@ TEST(Frames, TheListNamesEveryFileAsItComes) {
   EXPECT_EQ(frames.list().size(), 4u);
 }
 
-TEST(Frames, ResumedTheyAreTheSame) {
+TEST(Frames, AreTheSameAfterResuming) {
   const TemporaryFolder whole, resumed;
   std::filesystem::create_directories(resumed.path() / "b");
   {
@@ -132,7 +132,7 @@ TEST(Frames, AFieldOfAnotherSizeIsRefused) {
 }
 
 // The real VTK reads back what was written: read_frames.py beside this file compares every value.
-TEST(Frames, VtkReadsThemBack) {
+TEST(Frames, CanBeReadByVtk) {
   const std::string python = "/usr/bin/python3 ";
   if (std::system((python + "-c 'import vtk' 2>/dev/null").c_str()) != 0)
     GTEST_SKIP() << "the Python package of VTK is not here: apt-get install --no-install-recommends python3-vtk9";

@@ -34,7 +34,7 @@ TEST(Measure, FoldTimeLiesWhereTheLinePassesZero) {
   EXPECT_EQ(fold.smallest(), -20);
 }
 
-TEST(Measure, TouchingTheHorizontalIsNoFold) {
+TEST(Measure, TouchingTheHorizontalIsNotAFold) {
   FoldTime fold;
   for (const double angle : {30., 5., 0., 0., 12.}) fold.add(1 + angle / 100, angle);
   EXPECT_FALSE(fold.time());
@@ -51,7 +51,7 @@ TEST(Measure, FoldFromTheHorizontalBeginsThere) {
   EXPECT_EQ(folded_at_once.time().value(), 0.5);
 }
 
-TEST(Measure, WithoutSamplesThereIsNothing) {
+TEST(Measure, IsEmptyWithoutSamples) {
   EXPECT_FALSE(FoldTime().time());
   EXPECT_TRUE(std::isnan(FoldTime().smallest()));
 }

@@ -32,7 +32,7 @@ void write_case(const std::filesystem::path& folder, const swallowing::RunSettin
   }
 }
 
-TEST(Mechanisms, AreReadFromTheContacts) {
+TEST(Mechanisms, AreDerivedFromTheContacts) {
   const TemporaryFolder folder;
   const swallowing::RunSettings settings{{"spacing", "0.0024"}};
   write_case(folder.path() / "X1", settings);

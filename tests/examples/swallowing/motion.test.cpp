@@ -40,7 +40,7 @@ TEST(Constrictors, TurnInTwoStagesAndOpenAgain) {
   EXPECT_NEAR(plates.angle(20, 1.82), 24, 1e-9);  // half way between the levels
 }
 
-TEST(Constrictors, RefuseStagesThatOutlastTheRelease) {
+TEST(Constrictors, RejectStagesThatOutlastTheRelease) {
   for (const char* row : {"30,28,1.5,0.4,0,1.7,0.1,1.85,2,0.2", "30,28,1.5,0.1,5,1.8,0.1,1.85,2,0.2",
                           "30,28,1.5,0.1,0,1.7,0,1.85,2,0.2", "5,28,1.5,0.1,0,1.7,0.1,1.85,2,0.2"}) {
     const std::string text = message_of([&] { (void)swallowing::read_constrictors(folder_with(row)); });

@@ -9,7 +9,7 @@ namespace numbers_test {
 
 using examples::decimal;
 
-TEST(Numbers, AreReadAsAWhole) {
+TEST(Numbers, AreReadCompletely) {
   EXPECT_EQ(decimal<double>("1.5"), 1.5);
   EXPECT_EQ(decimal<double>("+.5"), 0.5);
   EXPECT_EQ(decimal<double>("-2e-3"), -2e-3);
@@ -19,7 +19,7 @@ TEST(Numbers, AreReadAsAWhole) {
   EXPECT_EQ(decimal<long>("-3"), -3);
 }
 
-TEST(Numbers, OfOtherNotationsOrWithAnythingElseAreRefused) {
+TEST(Numbers, RejectOtherNotationsAndTrailingText) {
   for (const std::string text :
        {"",      "+",    "-",   ".",   "e5",  "0x1", "0X1p3",     "1 ",  " 1",    "1,5",    "1_000",
         "1'000", "1.5x", "--1", "+-1", "++1", "inf", "-infinity", "nan", "1e400", "1e-400", "1\n"})

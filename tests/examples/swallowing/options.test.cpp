@@ -63,7 +63,7 @@ TEST(Options, QualityNamesSpacingStepAndScalar) {
   EXPECT_NE(parse({"--quality", "best"}).err.find("{draft,standard,paper,fine}"), std::string::npos);
 }
 
-TEST(Options, EveryOptionArrives) {
+TEST(Options, EveryOptionIsApplied) {
   const auto parsed = parse({"--case",    "Y3",   "--spacing",       "1.2e-3", "--time-step", "1e-5",
                              "--until",   "1.75", "--friction",      "0.2",    "--scalar",    "float",
                              "--threads", "3",    "--out",           "here",   "--resume",    "--no-frames",
@@ -109,7 +109,7 @@ TEST(Options, TheContactOfThePaperHasItsPenalty) {
   EXPECT_FALSE(parse({"--contact", "paper", "--penalty", "1e10"}).options->penalty_ratio);
 }
 
-TEST(Options, FittedParticlesLieOnNoLattice) {
+TEST(Options, FittedParticlesRejectALatticeShift) {
   EXPECT_FALSE(parse({}).options->fitted);
   EXPECT_FALSE(parse({"--particles", "lattice"}).options->fitted);
   EXPECT_TRUE(parse({"--particles", "fitted"}).options->fitted);
@@ -126,7 +126,7 @@ TEST(Options, NumbersAreDecimal) {
   EXPECT_EQ(parse({"--lattice-shift", "-.5"}).options->lattice_shift, -0.5);
 }
 
-TEST(Options, HelpNamesEveryOptionAndEndsWell) {
+TEST(Options, HelpNamesEveryOptionAndSucceeds) {
   const auto parsed = parse({"--help"});
   EXPECT_FALSE(parsed.options);
   EXPECT_EQ(parsed.exit_code, 0);

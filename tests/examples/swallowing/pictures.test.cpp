@@ -81,7 +81,7 @@ constexpr auto red = [](int r, int g, int b) { return r > 150 && g < 120 && b < 
 constexpr auto yellow = [](int r, int g, int b) { return r > 200 && g > 150 && b < 100; };
 constexpr auto dark = [](int r, int g, int b) { return r < 70 && g < 70 && b < 80; };
 
-TEST(Pictures, ASnapshotComesBackAsItWas) {
+TEST(Pictures, RestoresASnapshot) {
   const TemporaryFolder folder;
   const Snapshots snapshots(folder.path() / "snapshots");
   EXPECT_FALSE(snapshots.load(1.667));
@@ -441,7 +441,7 @@ TEST(Pictures, OutlinesOfTwoLeavesAreRedAndYellow) {
   EXPECT_NEAR(yellows / reds, 1, 0.3);
 }
 
-TEST(Pictures, TableAndFoldStandBesideThePaper) {
+TEST(Pictures, TableAndFoldIncludeThePaper) {
   const TemporaryFolder folder;
   const auto x1 = folder.path() / "X1";
   std::filesystem::create_directories(x1);

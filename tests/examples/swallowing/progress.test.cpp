@@ -52,7 +52,7 @@ TEST(Progress, TimeLeftOfAResumedRunCountsFromItsStart) {
   EXPECT_NE(out.str().find(" 10 s left"), std::string::npos) << out.str();
 }
 
-TEST(Progress, SaysDurationsAndNumbersAsOneReadsThem) {
+TEST(Progress, FormatsDurationsAndNumbers) {
   EXPECT_EQ(swallowing::duration(0.4), "0 s");
   EXPECT_EQ(swallowing::duration(185), "3 min 05 s");
   EXPECT_EQ(swallowing::duration(2 * 3600 + 7 * 60), "2 h 07 min");

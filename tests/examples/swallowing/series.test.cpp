@@ -97,7 +97,7 @@ TEST(Series, IsNotResumedWhereItHasLostWhatLiesBeforeTheCheckpoint) {
   EXPECT_EQ(Series(path, mark).samples().size(), 21u);
 }
 
-TEST(Series, WithoutResumeItBeginsAnew) {
+TEST(Series, StartsAnewWithoutResume) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "series.csv";
   { Series(path).add(sample(1)); }
@@ -106,7 +106,7 @@ TEST(Series, WithoutResumeItBeginsAnew) {
   EXPECT_EQ(swallowing::read_series(path)[0].time, 2e-3);
 }
 
-TEST(Series, KeepsWhatADivergingRunLeft) {
+TEST(Series, KeepsTheRowsOfADivergingRun) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "series.csv";
   Sample last = sample(3);

@@ -13,7 +13,7 @@ TEST(StepClock, StepsDivideTheBeat) {
   EXPECT_EQ(StepClock::dividing(1), 1e-3);
 }
 
-TEST(StepClock, GoesOnWhereTheStepChanges) {
+TEST(StepClock, ContinuesWhenTheStepChanges) {
   StepClock clock(StepClock::dividing(3e-5));
   for (int k = 0; k < 20 * 34; ++k) clock.advance();
   EXPECT_NEAR(clock.time(), 20e-3, 1e-15);

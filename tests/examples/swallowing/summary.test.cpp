@@ -16,7 +16,7 @@ using hmps_test::TemporaryFolder;
 using swallowing::DetF;
 using swallowing::Summary;
 
-TEST(Summary, HoldsTheFieldsThatOthersRead) {
+TEST(Summary, HoldsTheFieldsThatOtherProgramsRead) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "summary.json";
   Summary s;
@@ -71,7 +71,7 @@ TEST(Summary, HoldsTheFieldsThatOthersRead) {
   EXPECT_EQ(read->contact_share_per_tenth, s.contact_share_per_tenth);
 }
 
-TEST(Summary, WhatIsNotFiniteBecomesNull) {
+TEST(Summary, WritesNonFiniteValuesAsNull) {
   const TemporaryFolder folder;
   Summary s;
   s.tip_angle_min = std::nan("");
@@ -84,7 +84,7 @@ TEST(Summary, WhatIsNotFiniteBecomesNull) {
   EXPECT_EQ(read->failure, s.failure);
 }
 
-TEST(Summary, MissingIsNothingAndForeignIsAnError) {
+TEST(Summary, MissingFilesAreEmptyAndInvalidFilesAreErrors) {
   const TemporaryFolder folder;
   EXPECT_FALSE(swallowing::read_summary(folder.path() / "none.json"));
   examples::write_atomically(folder.path() / "foreign.json", "{\"a\": 1}");

@@ -18,7 +18,7 @@ TEST(LatticeShift, ShiftsByHalfASpacingAlongEachAxis) {
   EXPECT_THROW((void)lattice_shifts(0), InputError);
 }
 
-TEST(LatticeShift, TheErrorBarHoldsEveryResult) {
+TEST(LatticeShift, TheErrorBarContainsEveryResult) {
   const auto spread = lattice_spread(1, [](const auto& origin) { return 10 + 4 * origin[0] - 2 * origin[2]; });
   EXPECT_EQ(spread.values, (std::vector<double>{10, 12, 10, 9}));
   EXPECT_DOUBLE_EQ(spread.mean, 10.25);

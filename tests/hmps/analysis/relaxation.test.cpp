@@ -200,7 +200,7 @@ TYPED_TEST(RelaxOf, EveryExecutorGivesTheSameBits) {
 
 // In float, the rounding of positions makes forces of the size of the weight. Relax may refuse such a body, but must
 // not call it at rest before it has sagged.
-TEST(Relax, DoesNotTakeTheWeightOfAFloatBodyForRounding) {
+TEST(Relax, DistinguishesTheWeightOfAFloatBodyFromRounding) {
   const Vector<double, 2> away(0.3, 0);  // where positions are rounded coarsely
   const auto sag = [&]<class T>(T, const double load) {
     Standing<T, 2> body(column<2>(5, 20));
@@ -291,7 +291,7 @@ TEST(Relax, FollowsTheStableStepThroughALargeStrain) {
 /// Two oscillators: the first with every step up to its limit of stability, 1 s, the second slow. Stopped without going
 /// back to the peak, the first would swing for ever where its period is four steps (a step of 1 / sqrt(2) s), and it
 /// would grow near the limit if the first kick were a whole one.
-TEST(Relax, IsHeldUpByNoModeAtAnyStableStep) {
+TEST(Relax, ConvergesInEveryModeAtAnyStableStep) {
   for (const double step : {0.1, 0.3, 0.5, std::sqrt(0.5), 0.8, 0.9, 0.99}) {
     std::vector<Vector<double, 2>> x{{1, 0}, {0, 1}}, v = x, f = x;
     const double slow = 0.2;  // rad/s; the first has 2 rad/s
@@ -382,7 +382,7 @@ TEST(Relax, TakesFrictionThatIsGivenAboutItsOwnStep) {
   EXPECT_TRUE(has(words, "damping shortened its step")) << words;
 }
 
-TEST(Relax, SaysWhenItDoesNotConverge) {
+TEST(Relax, ReportsFailureToConverge) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));
   const std::string words = words_of([&] {
@@ -398,7 +398,7 @@ TEST(Relax, SaysWhenItDoesNotConverge) {
   EXPECT_LE(found.residual, 1e-3);
 }
 
-TEST(Relax, SaysWhatTheLoadIsAndWhatTheStepIfItDoesNotConverge) {
+TEST(Relax, ReportsLoadAndStepIfItDoesNotConverge) {
   Standing<double, 2> body(column<2>(3, 6));
   auto damped = internal_force(body.bonds, elastic(linear), artificial(young), viscous(density, 10));
   RelaxationSettings settings{.spacing = l0, .max_iterations = 20, .moves = body.moves()};
@@ -471,7 +471,7 @@ TEST(Relax, RefusesASpacingInAnotherUnit) {
 
 // The lambda below reads and writes views of the user instead of its arguments: earlier, relax saw no force and
 // reported rest.
-TEST(Relax, RefusesAForceThatDoesNotWriteWhereItIsAsked) {
+TEST(Relax, RejectsAForceThatIgnoresItsArguments) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));
   auto weighed = body.with_weight(force);
@@ -492,7 +492,7 @@ TEST(Relax, RefusesAForceThatDoesNotWriteWhereItIsAsked) {
 }
 
 // Earlier, the body fell for all permitted iterations, and the message asked for more of them.
-TEST(Relax, SaysWhenNothingHoldsTheBody) {
+TEST(Relax, ReportsABodyThatNothingHolds) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));
   const std::string words = words_of([&] {

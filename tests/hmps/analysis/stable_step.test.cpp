@@ -106,7 +106,7 @@ TYPED_TEST(StableStepOf, ChainOfSpringsIsBelowItsExactLimit) {
   }
 }
 
-TYPED_TEST(StableStepOf, TellsHowItGetsOn) {
+TYPED_TEST(StableStepOf, ReportsProgress) {
   using T = typename TypeParam::Scalar;
   Chain<T, TypeParam::D> chain;
   const auto x = chain.positions();
@@ -210,7 +210,7 @@ TEST(StableStep, DoesNotChangeTheStateAndRepeats) {
   EXPECT_EQ(first.iterations, second.iterations);
 }
 
-TEST(StableStep, ParticlesThatDoNotMoveDoNotCount) {
+TEST(StableStep, IgnoresFixedParticles) {
   Chain<double, 2> chain{.n = 50};
   auto x = chain.positions();
   std::vector<Vector<double, 2>> v(chain.n, Vector<double, 2>::Zero());
@@ -227,7 +227,7 @@ TEST(StableStep, ParticlesThatDoNotMoveDoNotCount) {
 
 // Forces of particles with different volumes are symmetric only when multiplied by the volumes; the motion itself
 // decides.
-TEST(StableStep, HoldsForParticlesOfUnlikeVolumes) {
+TEST(StableStep, HoldsForParticlesOfDifferentVolumes) {
   constexpr double l0 = 1e-3, rho = 1000;
   std::vector<Vector<double, 2>> X;
   std::vector<double> volumes;
@@ -306,7 +306,7 @@ TEST(StableStep, RefreshesSeeAModeThatAppearsElsewhere) {
   expect_safe(found, limit, 1e-6);
 }
 
-TEST(StableStep, WithoutAnyForceNothingLimits) {
+TEST(StableStep, HasNoLimitWithoutForces) {
   std::vector<Vector<double, 2>> x(5, Vector<double, 2>::Zero());
   const auto nothing = [](const auto&, const auto&, const auto&) {};
   const auto found = stable_step(nothing, vectors(x), vectors(x), 1000.0, {.spacing = 1.0});

@@ -112,7 +112,7 @@ TEST(StepCauses, SupportIsOneInsideAHalfAtAFaceAndLessAtEdges) {
   EXPECT_THROW((void)relative_support(lattice, points.size()), InputError);
 }
 
-TEST(StepCauses, BadInputIsRefusedAndNoLimitHasNoCause) {
+TEST(StepCauses, BadInputIsRejectedAndNoLimitHasNoCause) {
   Cube cube(young, 2e-3, 1);
   const StableStepSettings settings{.spacing = spacing};
   StableStep unknown{.limit = 1e-5};

@@ -78,7 +78,7 @@ TYPED_TEST(BondList, TakesLittleMemory) {
 TYPED_TEST(BondList, RefusesBadInput) { refuse_bad_input<TypeParam>(); }
 
 // n^0, lambda and the 26 neighbours of a particle inside a cubic lattice (Eq. (21), r_e = 1.75 l0).
-TEST(BondList, KnowsTheStandardValuesOfTheLattice) {
+TEST(BondList, HasTheStandardValuesOfTheLattice) {
   const auto points = scenes::box<3>({5, 5, 5});
   const double l0 = scenes::Scene<3>::spacing;
   const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});

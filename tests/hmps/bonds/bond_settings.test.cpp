@@ -40,7 +40,7 @@ TYPED_TEST(BondsOfAnyKind, RefuseAPredicateThatIsNotSymmetric) {
 }
 
 // Earlier, a weight that was negative or NaN at some distance cut the bonds of that length.
-TYPED_TEST(BondsOfAnyKind, RefuseWeightsThatAreNone) {
+TYPED_TEST(BondsOfAnyKind, RejectInvalidWeights) {
   const std::vector<V> points = square();
   const auto with = [&](double far_weight) {
     return TypeParam(hmps::vectors(points), {.spacing = 1}, EveryBond{},

@@ -23,7 +23,7 @@ class CloudOrder : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(CloudOrder, Dimensions);
 
-TYPED_TEST(CloudOrder, HoldsEveryParticleOnceWhateverTheOrderInWhichTheyAreGiven) {
+TYPED_TEST(CloudOrder, HoldsEveryParticleOnceInAnyInputOrder) {
   constexpr int D = TypeParam::value;
   for (const auto& scene : scenes::all<D>()) {
     SCOPED_TRACE(scene.name);
@@ -63,7 +63,7 @@ TYPED_TEST(CloudOrder, FollowsTheRowsOfALattice) {
 }
 
 // A cube whose first axis is the fastest in the user's arrays is left as it is.
-TYPED_TEST(CloudOrder, LeavesBothUsualOrdersOfALatticeAsTheyAre) {
+TYPED_TEST(CloudOrder, KeepsBothUsualOrdersOfALattice) {
   constexpr int D = TypeParam::value;
   const scenes::Points<D> points = scenes::box<D>(scenes::extent<D>(7, 7, 7));
   scenes::Points<D> reversed = points;
@@ -74,6 +74,6 @@ TYPED_TEST(CloudOrder, LeavesBothUsualOrdersOfALatticeAsTheyAre) {
   EXPECT_EQ(order_of<D>(reversed), all);
 }
 
-TYPED_TEST(CloudOrder, OfNothingIsEmpty) { EXPECT_TRUE(order_of<TypeParam::value>({}).empty()); }
+TYPED_TEST(CloudOrder, IsEmptyWithoutParticles) { EXPECT_TRUE(order_of<TypeParam::value>({}).empty()); }
 
 }  // namespace cloud_order_test

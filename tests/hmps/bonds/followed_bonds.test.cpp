@@ -22,7 +22,7 @@ Bonds cube(int edge) {
   return Bonds(hmps::vectors(X), {.spacing = 1});
 }
 
-TEST(FollowedBonds, AreFoundWhereTheyAreMovedTo) {
+TEST(FollowedBonds, FollowMoves) {
   auto first = std::make_unique<Bonds>(cube(3));
   const Followed followed(*first);
   const Followed again = followed;
@@ -36,7 +36,7 @@ TEST(FollowedBonds, AreFoundWhereTheyAreMovedTo) {
   EXPECT_EQ(&again.now(), &third);
 }
 
-TEST(FollowedBonds, ACopyIsNotFollowed) {
+TEST(FollowedBonds, DoNotFollowCopies) {
   const Bonds own = cube(3);
   const Followed followed(own);
   const Bonds copy = own;
@@ -44,7 +44,7 @@ TEST(FollowedBonds, ACopyIsNotFollowed) {
   EXPECT_EQ(&Followed(copy).now(), &copy);
 }
 
-TEST(FollowedBonds, ThatAreNoMoreAreRefused) {
+TEST(FollowedBonds, RejectsDestroyedBonds) {
   auto bonds = std::make_unique<Bonds>(cube(3));
   const Followed followed(*bonds);
   const Bonds other = cube(3);

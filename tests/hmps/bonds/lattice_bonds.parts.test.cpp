@@ -119,7 +119,7 @@ TEST(PartsOfALattice, HaveTheBitsOfTheWholeInThinWalls) {
 
 // Without the axes or the displacement of the whole, parts round differently: this is what `axes` and
 // `subtract_displacement` are for, and shows that the comparison above can fail.
-TEST(PartsOfALattice, RoundInAnotherWayIfTheyChooseForThemselves) {
+TEST(PartsOfALattice, RoundDifferentlyWithTheirOwnAxes) {
   const Body body;
   std::vector<int> slabs;
   for (const Vector& X : body.X) slabs.push_back(static_cast<int>((X[0] - body.X[0][0]) / l0 + 0.5) / 4);
@@ -127,7 +127,7 @@ TEST(PartsOfALattice, RoundInAnotherWayIfTheyChooseForThemselves) {
   EXPECT_GT(differences(body, slabs, 2, true, false), 0u);
 }
 
-TEST(PartsOfALattice, MayHaveParticlesWithoutBondsOnlyIfTheySaySo) {
+TEST(PartsOfALattice, AllowUnbondedParticlesOnlyOnRequest) {
   const State X = scenes::box<3>({4, 4, 4});
   const auto bonded = [](std::size_t i, std::size_t) { return i != 5; };
   EXPECT_THROW(Bonds(hmps::vectors(X), {.spacing = l0}, bonded), hmps::InputError);
@@ -154,7 +154,7 @@ TEST(PartsOfALattice, BlocksWithoutBondsAreUndeformed) {
   }
 }
 
-TEST(PartsOfALattice, RefuseAxesAndDisplacementsThatAreNone) {
+TEST(PartsOfALattice, RejectInvalidAxesAndDisplacements) {
   const State X = scenes::box<3>({4, 4, 4});
   EXPECT_THROW(Bonds(hmps::vectors(X), {.spacing = l0, .axes = {0, 1, 1}}), hmps::InputError);
   Bonds bonds(hmps::vectors(X), {.spacing = l0});

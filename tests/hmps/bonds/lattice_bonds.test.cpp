@@ -38,7 +38,7 @@ TYPED_TEST(LatticeBonds, RefusesBadInput) { refuse_bad_input<TypeParam>(); }
 
 // n^0, lambda and the 26 neighbours of a particle inside a cubic lattice (Eq. (21), r_e = 1.75 l0),
 // also where the body itself is too thin to have one.
-TEST(LatticeBonds, KnowTheStandardValues) {
+TEST(LatticeBonds, HaveTheStandardValues) {
   const double l0 = scenes::Scene<3>::spacing;
   for (const auto& points : {scenes::box<3>({5, 5, 5}), scenes::box<3>({5, 5, 2})}) {
     const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
@@ -61,7 +61,7 @@ TEST(LatticeBonds, TakeAnotherWeightAndRadius) {
 }
 
 // Positions in single precision lie off the lattice by their rounding, far from the origin too.
-TEST(LatticeBonds, ForgiveTheRoundingOfTheUsersPositions) {
+TEST(LatticeBonds, TolerateRoundingOfPositions) {
   std::vector<std::array<float, 2>> points;
   for (int i = 0; i < 40; ++i)
     for (int j = 0; j < 3; ++j)
@@ -107,7 +107,7 @@ TEST(LatticeBonds, KeepTheShapesOfLikeBlocksOnce) {
   EXPECT_NEAR((bytes(320) - bytes(160)) / (9 * 160), 24 + 8 + 5. / 8, 0.5);
 }
 
-TEST(LatticeBonds, RefuseWhatIsOffTheLattice) {
+TEST(LatticeBonds, RejectParticlesOffTheLattice) {
   auto points = scenes::box<2>({8, 4});
   const double l0 = scenes::Scene<2>::spacing;
   points[13][1] += 0.25 * l0;
@@ -148,7 +148,7 @@ TEST(LatticeBonds, RefusePositionsThatTheirScalarDoesNotResolve) {
 }
 
 // A wrong spacing is not a reason to leave the lattice: the right one is named.
-TEST(LatticeBonds, NameTheSpacingThatParticlesSeemToHave) {
+TEST(LatticeBonds, NameTheSpacingOfTheParticles) {
   const auto points = scenes::box<3>({6, 5, 4});
   const double l0 = scenes::Scene<3>::spacing;
   const std::string right = hmps::detail::message("is the spacing ", l0, " m?");

@@ -36,7 +36,7 @@ std::string refused(const N& neighbours, const W& weights) {
 
 // The bonds of the search, given as pairs in any order, as lists, and with weights in any form, are the same to the
 // bit.
-TEST(OwnBonds, AreThoseOfTheSearchWhereTheyAreTheSame) {
+TEST(OwnBonds, AgreeWithTheSearch) {
   const auto scene = scenes::all<2>().front();
   const double reach = 1.75 * scene.spacing;
   const auto x = hmps::vectors(scene.reference);
@@ -74,7 +74,7 @@ TEST(OwnBonds, AreThoseOfTheSearchWhereTheyAreTheSame) {
   equal({x, lists, shaped});
 }
 
-TEST(OwnBonds, MayAllWeighTheSame) {
+TEST(OwnBonds, MayHaveEqualWeights) {
   const hmps::BondList<float, 3> bonds(hmps::vectors(corners), all, 2);
   int count = 0;
   for (std::size_t i = 0; i < 4; ++i)
@@ -146,7 +146,7 @@ TEST(OwnBonds, AsListsMustNameEachBondFromBothEnds) {
   EXPECT_TRUE(has(refused(good, weights), "particle 1 has 3 neighbours but another number of weights"));
 }
 
-TEST(OwnBonds, OfNoParticlesAreNone) {
+TEST(OwnBonds, AreEmptyWithoutParticles) {
   const std::vector<hmps::Vector<double, 3>> none;
   const hmps::BondList<float, 3> bonds(hmps::vectors(none), Pairs{}, 1.0);
   EXPECT_EQ(bonds.size(), 0u);

@@ -31,7 +31,7 @@ TEST(PlausibleSpacing, RefusesASpacingThatBondsEverythingToEverything) {
   EXPECT_TRUE(has(error, "the typical distance to the nearest particle is 0.0012 m")) << error;
 }
 
-TEST(PlausibleSpacing, RefusesASpacingThatLeavesNearlyAllAlone) {
+TEST(PlausibleSpacing, RejectsASpacingWithFewNeighbours) {
   auto points = scenes::box<3>({6, 6, 6});
   points.push_back(points.front() + hmps::Vector<double, 3>(1e-7, 0, 0));  // one pair within the radius
   const std::string error = error_with<3>(points, 1.2e-6);
@@ -42,7 +42,7 @@ TEST(PlausibleSpacing, RefusesASpacingThatLeavesNearlyAllAlone) {
 }
 
 // A radius in metres instead of a number of spacings: the spacing itself is not wrong.
-TEST(PlausibleSpacing, NamesARadiusThatIsNoNumberOfSpacings) {
+TEST(PlausibleSpacing, NamesARadiusThatIsNotInSpacings) {
   constexpr double l0 = scenes::Scene<3>::spacing;
   const std::string error = error_with<3>(scenes::box<3>({6, 6, 6}), l0, 1.75 * l0);
   EXPECT_TRUE(has(error, "radius_ratio is a number of spacings")) << error;
@@ -50,7 +50,7 @@ TEST(PlausibleSpacing, NamesARadiusThatIsNoNumberOfSpacings) {
 
 // Up to 1.5 times the distance on the lattice and 0.7 of it, also in the plane and with other radii: unusual, but
 // nothing that must be an error. Twice that distance gives eight times the neighbours inside the body, and is one.
-TEST(PlausibleSpacing, TakesWhatIsOnlyUnusual) {
+TEST(PlausibleSpacing, AcceptsUnusualSpacings) {
   constexpr double l0 = scenes::Scene<3>::spacing;
   EXPECT_EQ(error_with<3>(scenes::box<3>({7, 7, 7}), 1.5 * l0), "nothing was thrown");
   EXPECT_EQ(error_with<3>(scenes::box<3>({7, 7, 7}), 0.7 * l0), "nothing was thrown");

@@ -25,7 +25,7 @@ hmps::ShapeTensor<D> lattice(Inside&& inside) {
 
 // The number density and lambda of Eq. (21), the eigenvalues of A of Eq. (12), in a cubic lattice of
 // r_e = 1.75 l0: sums over 6 faces, 12 edges and 8 corners.
-TEST(ShapeTensor, OfAFullLatticeHasTheKnownSums) {
+TEST(ShapeTensor, HasTheKnownSumsOnAFullLattice) {
   const auto shape = lattice<3>([](const auto&) { return true; });
   const double w1 = 0.75, w2 = 1.75 / std::sqrt(2.0) - 1, w3 = 1.75 / std::sqrt(3.0) - 1;
   EXPECT_EQ(shape.neighbours, 26);
@@ -37,7 +37,7 @@ TEST(ShapeTensor, OfAFullLatticeHasTheKnownSums) {
   EXPECT_LT((shape.inverse(0) * shape.A - Eigen::Matrix3d::Identity()).norm(), 1e-14);
 }
 
-TEST(ShapeTensor, SupportTellsSurfacesFromTheInside) {
+TEST(ShapeTensor, SupportDistinguishesSurfacesFromTheInterior) {
   EXPECT_NEAR(lattice<3>([](const auto&) { return true; }).support(), 3.48, 0.005);
   EXPECT_NEAR(lattice<3>([](const auto& r) { return r[0] <= 0; }).support(), 1.74, 0.005);
   EXPECT_NEAR(lattice<3>([](const auto& r) { return r.maxCoeff() <= 0; }).support(), 0.75, 0.3);

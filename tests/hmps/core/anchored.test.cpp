@@ -26,7 +26,7 @@ TEST(Anchored, IsFoundAfterMoves) {
   EXPECT_EQ(lost.object(), nullptr);
 }
 
-TEST(Anchored, CopiesAreObjectsOfTheirOwn) {
+TEST(Anchored, CopiesAreIndependent) {
   Body first;
   const Anchor anchor(first);
   Body second(first);
@@ -37,7 +37,7 @@ TEST(Anchored, CopiesAreObjectsOfTheirOwn) {
   EXPECT_EQ(Anchor(first).object(), &first);
 }
 
-TEST(Anchored, IsNoMoreWhenDestroyed) {
+TEST(Anchored, IsNotFoundAfterDestruction) {
   std::optional<Body> body(std::in_place);
   const Anchor anchor(*body);
   body.reset();

@@ -28,7 +28,7 @@ void expect_measurable() {
   EXPECT_TRUE(std::isnan((detail::measurable<S, 3>(V(0, 1, std::numeric_limits<S>::quiet_NaN())).sum())));
 }
 
-TEST(Direction, KeepsItsWayAtAnyLength) {
+TEST(Direction, IsIndependentOfTheLength) {
   expect_measurable<double>();
   expect_measurable<float>();
 }

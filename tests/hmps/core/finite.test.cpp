@@ -14,7 +14,7 @@ class Finite : public testing::Test {};
 using Scalars = testing::Types<float, double, long double>;
 TYPED_TEST_SUITE(Finite, Scalars);
 
-TYPED_TEST(Finite, TellsNumbersFromNoNumbers) {
+TYPED_TEST(Finite, DetectsNaNAndInfinity) {
   using L = std::numeric_limits<TypeParam>;
   for (const TypeParam x :
        {TypeParam(0), -TypeParam(0), TypeParam(1), L::max(), L::lowest(), L::min(), L::denorm_min()}) {
@@ -34,7 +34,7 @@ TYPED_TEST(Finite, TellsNumbersFromNoNumbers) {
 static_assert(is_finite(1.0) && is_finite(7) && !is_nan(7));
 static_assert(!is_finite(std::numeric_limits<float>::infinity()) && is_nan(std::numeric_limits<double>::quiet_NaN()));
 
-TEST(Finite, LooksAtEveryComponent) {
+TEST(Finite, ChecksEveryComponent) {
   for (int k = 0; k < 9; ++k) {
     hmps::Matrix<double, 3> m = hmps::Matrix<double, 3>::Identity();
     EXPECT_TRUE(all_finite(m));

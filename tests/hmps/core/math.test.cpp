@@ -58,7 +58,7 @@ TYPED_TEST(MathOf, KnownDeterminants) {
   EXPECT_EQ(determinant(M), T(0));
 }
 
-TYPED_TEST(MathOf, RightCauchyGreenIsSymmetricAndBlindToRotation) {
+TYPED_TEST(MathOf, RightCauchyGreenIsSymmetricAndIgnoresRotation) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
   for (int i = 0; i < 50; ++i) {

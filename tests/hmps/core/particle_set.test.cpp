@@ -31,7 +31,7 @@ TEST(ParticleSet, IsAListAndAPredicate) {
   EXPECT_EQ(ParticleSet(7, List{5, 1, 3}), odd);
 }
 
-TEST(ParticleSet, HasAnOppositeAndIsJoinedWithOthers) {
+TEST(ParticleSet, HasAComplementAndUnions) {
   const ParticleSet odd(7, List{1, 3, 5}), low(7, List{0, 1, 2});
   EXPECT_EQ((~odd).indices(), (List{0, 2, 4, 6}));
   EXPECT_EQ(~~odd, odd);
@@ -43,7 +43,7 @@ TEST(ParticleSet, HasAnOppositeAndIsJoinedWithOthers) {
   EXPECT_THROW((void)(odd | ParticleSet(6, List{})), hmps::InputError);
 }
 
-TEST(ParticleSet, RefusesWhatIsNoParticleOrGivenTwice) {
+TEST(ParticleSet, RejectsMissingAndRepeatedParticles) {
   const auto text = [](const List& indices) {
     try {
       (void)ParticleSet(4, indices);
@@ -58,7 +58,7 @@ TEST(ParticleSet, RefusesWhatIsNoParticleOrGivenTwice) {
 }
 
 // A set of another scene would hold, or release, all particles beyond its own.
-TEST(ParticleSet, OfAnotherSceneIsRefusedAlsoWithinAFunction) {
+TEST(ParticleSet, OfAnotherSceneIsRejectedAlsoInsideAFunction) {
   const ParticleSet set(5, [](std::size_t) { return true; });
   EXPECT_THROW(hmps::detail::require_scene(set, 6, "that move"), hmps::InputError);
   EXPECT_NO_THROW(hmps::detail::require_scene(set, 5, "that move"));

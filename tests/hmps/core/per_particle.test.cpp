@@ -17,7 +17,7 @@ static_assert(PerParticle<double> && PerParticle<float> && PerParticle<ScalarVie
 static_assert(!PerParticle<std::vector<double>> && !PerParticle<decltype([](int) { return 1.0; })> &&
               !PerParticle<std::string>);
 
-TEST(PerParticle, NumberIsSharedAndViewIsEachOnesOwn) {
+TEST(PerParticle, NumbersAreSharedAndViewsDifferBetweenParticles) {
   std::vector<float> values{1.5f, 2.5f, 3.5f};
   EXPECT_EQ(at_particle(1000.0, 2), 1000.0);
   EXPECT_EQ(at_particle(scalars(values), 2), 3.5f);
@@ -44,14 +44,14 @@ TEST(PerParticle, CallableComputesTheValueOfEach) {
   EXPECT_NE(message(3).find("particle 1 belongs to body 2"), std::string::npos) << message(3);
 }
 
-TEST(PerParticle, AVectorIsEachOnesOwn) {
+TEST(PerParticle, VectorsDifferBetweenParticles) {
   const std::vector<Vector<float, 2>> directions{{1, 0}, {0.6F, 0.8F}};
   EXPECT_EQ(OneParticle{1}(vectors(directions)), (Vector<double, 2>(0.6F, 0.8F)));
   const std::string message = hmps_test::message_of([&] { (void)OneParticle{2}(vectors(directions)); });
   EXPECT_NE(message.find("holds 2 particles, but particle 2"), std::string::npos) << message;
 }
 
-TEST(PerParticle, ATensorIsEachOnesOwn) {
+TEST(PerParticle, TensorsDifferBetweenParticles) {
   hmps::Matrix<float, 2> growth;
   growth << 1, 2, 3, 4;
   const std::vector<hmps::Matrix<float, 2>> tensors{hmps::Matrix<float, 2>::Identity(), growth};

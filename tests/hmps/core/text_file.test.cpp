@@ -32,7 +32,7 @@ TEST(TextFile, ReadsAllBytesAndNamesWhatItCannotRead) {
   EXPECT_THROW((void)read_text(folder.path().string()), hmps::InputError);
 }
 
-TEST(TextFile, EndsWithWhatDoesNotEnd) {
+TEST(TextFile, StopsAtEndlessFiles) {
   if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP() << "no endless file here";
   try {
     (void)read_text("/dev/zero", 3'000'000);
@@ -57,7 +57,7 @@ TEST(TextFile, ReadsPipes) {
 }
 #endif
 
-TEST(TextFile, QuotesOnlyWhatCanBePrinted) {
+TEST(TextFile, QuotesOnlyPrintableText) {
   EXPECT_EQ(printable("vertex 1"), "vertex 1");
   EXPECT_EQ(printable(std::string_view("a\0\n\xff\x1b[2J", 8)), "a\\x00\\x0a\\xff\\x1b[2J");
   // Not with +, about which g++ 12 warns falsely.

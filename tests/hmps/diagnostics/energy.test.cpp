@@ -161,7 +161,7 @@ TEST(Energy, FreeVibrationKeepsItToTheFirstOrderOfTheStep) {
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.1);
 }
 
-TEST(Energy, RefusesALawOrAModulusThatIsNone) {
+TEST(Energy, RejectsInvalidLawsAndModuli) {
   std::vector<Vector<double, 3>> x;
   for (int i = 0; i < 27; ++i) x.emplace_back(spacing * Vector<double, 3>(i % 3, i / 3 % 3, i / 9));
   const std::vector<Matrix<double, 3>> F(x.size(), Matrix<double, 3>::Identity());
@@ -178,7 +178,7 @@ TEST(Energy, RefusesALawOrAModulusThatIsNone) {
   }
 }
 
-TEST(Energy, RefusesAModulusThatIsNoneInTheLawOfAParticle) {
+TEST(Energy, RejectsAnInvalidModulusInTheLawOfAParticle) {
   const std::vector<Matrix<double, 3>> F(4, Matrix<double, 3>::Identity());
   std::vector<double> shear(4, 1e3);
   const auto energy = [&] {

@@ -19,7 +19,7 @@ template <class K>
 struct JacobianOf : testing::Test {};
 TYPED_TEST_SUITE(JacobianOf, Kinds);
 
-TYPED_TEST(JacobianOf, CountsWhatItIsAskedToCount) {
+TYPED_TEST(JacobianOf, CountsTheSelectedParticles) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
   // More particles than one chunk of the reduction holds; det F is 1 except for a few.
@@ -56,7 +56,7 @@ TYPED_TEST(JacobianOf, CountsWhatItIsAskedToCount) {
   EXPECT_EQ(again.largest, all.largest);
 }
 
-TEST(Jacobian, StatisticsOfNobodyAreRefused) {
+TEST(Jacobian, RejectsStatisticsOfNoParticle) {
   std::vector<Matrix<double, 2>> F(3, Matrix<double, 2>::Identity()), empty;
   EXPECT_THROW((void)jacobian_statistics(matrices(F), {}, [](std::size_t) { return false; }), InputError);
   EXPECT_THROW((void)jacobian_statistics(matrices(empty)), InputError);

@@ -57,7 +57,7 @@ TEST(Momentum, BadInputIsRefused) {
   EXPECT_THROW((void)linear_momentum(vectors(x), 1000.0, -1.0), InputError);
 }
 
-TEST(Momentum, RefusesAViewOfNoMemory) {
+TEST(Momentum, RejectsANullView) {
   const auto nowhere = vectors<3>(static_cast<const double*>(nullptr), 2);
   EXPECT_THROW((void)linear_momentum(nowhere, 1000.0, 1e-9), InputError);
 }

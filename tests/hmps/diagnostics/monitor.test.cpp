@@ -27,7 +27,7 @@ struct MonitorIn : testing::Test {
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(MonitorIn, Scalars);
 
-TYPED_TEST(MonitorIn, SoundStateIsFine) {
+TYPED_TEST(MonitorIn, AcceptsAValidState) {
   this->v[5][0] = TypeParam(44.7);
   EXPECT_FALSE(this->fault().has_value());
   EXPECT_NO_THROW(check_state(vectors(this->x), vectors(this->v), matrices(this->F), this->limits));
@@ -97,7 +97,7 @@ TYPED_TEST(MonitorIn, FastestParticleIsNamed) {
   EXPECT_FALSE(this->fault().has_value());
 }
 
-TEST(Monitor, MessageGoesWithoutTimeAndOrgan) {
+TEST(Monitor, MessageWorksWithoutTimeAndOrgan) {
   std::vector<Vector<double, 2>> x(2, Vector<double, 2>::Zero()), v(2, Vector<double, 2>(0, 3));
   const auto fault = find_fault(vectors(x), vectors(v), {.speed_limit = 1});
   ASSERT_TRUE(fault.has_value());

@@ -128,7 +128,7 @@ TEST(PlaneStress, LeavesParticlesWithoutAWallAlone) {
   EXPECT_LT(F[1](2, 2), 1);
 }
 
-TEST(PlaneStress, RefusesWhatIsNotAWall) {
+TEST(PlaneStress, RejectsBodiesThatAreNotWalls) {
   const auto law = hmps::NeoHookean<>::from_moduli(60e3, 30e3);
   std::vector<Tensor> F{Tensor::Identity(), Tensor::Identity()};
   const auto impose = [&](const std::vector<Point>& normals) {

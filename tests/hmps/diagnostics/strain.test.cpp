@@ -44,7 +44,7 @@ TEST(Strain, RigidRotationHasNoneAndVolumeTheSameInAllDirections) {
   EXPECT_NEAR((principal_stretches(F) - Vector<double, 3>::Constant(1.2)).norm(), 0, rounding);
 }
 
-TEST(Strain, ASmallOneKeepsItsDigits) {
+TEST(Strain, KeepsItsDigitsWhenSmall) {
   Tensor F = Tensor::Identity();
   F(0, 1) = 1e-12;
   EXPECT_DOUBLE_EQ(green_lagrange_strain(F)(0, 1), 0.5e-12);

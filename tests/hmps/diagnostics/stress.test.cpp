@@ -111,7 +111,7 @@ TEST(Stress, ABrokenParticleIsNamed) {
   EXPECT_THROW(cauchy_stresses(matrices(F), law, matrices(F)), InputError);
 }
 
-TEST(Stress, NamesTheParticleWhoseLawHasAModulusThatIsNone) {
+TEST(Stress, NamesTheParticleWithAnInvalidModulus) {
   const std::vector<Tensor> F(3, Tensor::Identity());
   std::vector<double> shear{mu, -mu, mu}, mises(3);
   const auto stress = [&] {

@@ -14,7 +14,7 @@ TEST(OneTBB, CallsTheBodyOnceForEach) {
   same_bits::call_every_index_once(hmps::OneTBB{.grain = 64});
 }
 
-TEST(OneTBB, HandsExceptionsToTheCaller) { same_bits::pass_exceptions_on(hmps::OneTBB{}); }
+TEST(OneTBB, PropagatesExceptions) { same_bits::pass_exceptions_on(hmps::OneTBB{}); }
 
 TEST(OneTBB, GivesTheSameBitsAsOneThread) {
   const auto check = [](const auto& probe) {

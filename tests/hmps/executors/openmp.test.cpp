@@ -14,7 +14,7 @@ TEST(OpenMP, CallsTheBodyOnceForEach) {
   same_bits::call_every_index_once(hmps::OpenMP{});
 }
 
-TEST(OpenMP, HandsExceptionsToTheCaller) {
+TEST(OpenMP, PropagatesExceptions) {
   for (const int threads : {1, 4}) same_bits::pass_exceptions_on(hmps::OpenMP{threads});
 }
 
@@ -23,7 +23,7 @@ TEST(OpenMP, RefusesNoThreads) {
 }
 
 // Thousands of threads that spin while they wait for each other look like a program that hangs.
-TEST(OpenMP, RefusesMoreThreadsThanCanWork) {
+TEST(OpenMP, RejectsTooManyThreads) {
   const int most = hmps::OpenMP::most_threads();
   EXPECT_GE(most, 4 * omp_get_num_procs());
   bool called = false;

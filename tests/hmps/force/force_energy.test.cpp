@@ -61,7 +61,7 @@ struct Scene {
 
 // The force is minus the gradient of the energy of the same object: first the elastic force of a reduced law,
 // stabiliser and mean dilatation, then also weight, springs and a user-defined term.
-TEST(ForceEnergy, IsWhatTheForceIsMinusTheGradientOf) {
+TEST(ForceEnergy, HasMinusTheForceAsGradient) {
   Scene s;
   const auto share = hmps::split_bulk_modulus(1e6, 7e3);
   const auto law = hmps::MooneyRivlin<double>{1700, 1500, 0.5 * share.law};
@@ -81,7 +81,7 @@ TEST(ForceEnergy, IsWhatTheForceIsMinusTheGradientOf) {
 
 // With a volume per particle, the force times that volume is minus the gradient. It sums to zero, as does its moment;
 // so does the viscous force.
-TEST(ForceEnergy, OfUnlikeVolumesIsWhatTheForceTimesTheVolumeIsMinusTheGradientOf) {
+TEST(ForceEnergy, HasMinusTheForceTimesTheVolumeAsGradient) {
   const Scene s;
   const std::size_t n = s.scene.x.size();
   scenes::Random random(5);

@@ -154,7 +154,7 @@ TEST(ForceStress, IsThatOfTheLawWithoutMeanDilatation) {
     EXPECT_LE((of_force[i] - of_law[i]).norm(), 1e-9 * of_law[i].norm()) << "particle " << i;
 }
 
-TEST(ForceStress, NamesWhatIsWrong) {
+TEST(ForceStress, NamesTheInvalidArgument) {
   const auto scene = strained_sheet<3>();
   const hmps::BondList<double, 3> bonds(hmps::vectors(scene.reference), {.spacing = scene.spacing});
   const auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::mean_dilatation(K_mean));

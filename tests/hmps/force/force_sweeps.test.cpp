@@ -143,7 +143,7 @@ TEST(ForceSweeps, TakeNumbersViewsAndCallables) {
 }
 
 // `add` adds what the call writes, also to a narrower scalar.
-TEST(ForceSweeps, AddToWhatIsThere) {
+TEST(ForceSweeps, AddToTheForces) {
   const auto scene = scene_of("box with holes");
   const std::size_t n = scene.x.size();
   const auto bonds = make_bonds<Lattice>(scene);

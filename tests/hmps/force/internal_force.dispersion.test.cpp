@@ -17,7 +17,7 @@
 
 namespace internal_force_dispersion_test {
 
-TEST(Dispersion, OfTheLatticeIsExact) {
+TEST(Dispersion, IsExactOnTheLattice) {
   constexpr double l0 = scenes::Scene<3>::spacing, lambda = 2e6, mu = 6.7e3, modulus = 2e4;
   // The force on the particle in the middle reaches two layers of neighbours: all are inside.
   const auto reference = scenes::box<3>({7, 7, 7});

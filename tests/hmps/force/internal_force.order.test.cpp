@@ -28,7 +28,7 @@ using Models = testing::Types<hmps::LatticeBonds<float, 3>, hmps::BondList<doubl
 using Lists = testing::Types<hmps::BondList<float, 3>, hmps::BondList<double, 2>>;
 TYPED_TEST_SUITE(Order, Models);
 
-TYPED_TEST(Order, OfTheBlocksChangesNoBit) {
+TYPED_TEST(Order, OfTheBlocksDoesNotChangeTheResult) {
   const same_bits::Probe<TypeParam> probe;
   const auto expected = probe(hmps::Serial{});
   EXPECT_TRUE(same_bits::identical(probe(Backwards{}), expected));
@@ -44,7 +44,7 @@ template <class B>
 class OrderOfParticles : public testing::Test {};
 TYPED_TEST_SUITE(OrderOfParticles, Lists);
 
-TYPED_TEST(OrderOfParticles, ChangesForcesByRoundingAlone) {
+TYPED_TEST(OrderOfParticles, ChangesForcesOnlyByRounding) {
   constexpr int D = TypeParam::dimension;
   for (const auto& scene : scenes::all<D>()) {
     SCOPED_TRACE(scene.name);

@@ -180,7 +180,7 @@ TEST(InternalForce, OfNoTermsIsZeroAndKeepsNoScratch) {
 }
 
 // One object serves any number of states in turn: no state affects the next.
-TEST(InternalForce, RemembersNoState) {
+TEST(InternalForce, KeepsNoState) {
   const auto scene = scene_of("thin sheet");
   const auto bonds = make_bonds<Lattice>(scene);
   auto force = hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(2e4));
@@ -231,7 +231,7 @@ TEST(InternalForce, LeavesOutWhatOnlyPrescribedParticlesNeed) {
   EXPECT_EQ(found, expected);
 }
 
-TEST(InternalForce, ForgetsANaNBeforeItLeavesParticlesOut) {
+TEST(InternalForce, ClearsANaNBeforeRestriction) {
   using Point = hmps::Vector<double, 2>;
   for (int columns = 2; columns < 7; ++columns)
     for (int rows = 2; rows < 12; ++rows) {
@@ -255,7 +255,7 @@ TEST(InternalForce, ForgetsANaNBeforeItLeavesParticlesOut) {
 }
 
 // Eq. (2) in the last sweep gives the same as the force followed by `kick`, whatever the layout.
-TEST(InternalForce, KicksAsForceAndKickDo) {
+TEST(InternalForce, KickEqualsForceAndKick) {
   for (const char* name : {"box whose rows are long in the first direction", "shuffled"}) {
     const auto scene = scene_of(name);
     const std::size_t n = scene.x.size();
@@ -353,7 +353,7 @@ TEST(InternalForce, FollowsBondsThatAreMoved) {
   EXPECT_TRUE(before == after);
 }
 
-TEST(InternalForce, RefusesBondsThatAreNoMore) {
+TEST(InternalForce, RejectsDestroyedBonds) {
   const auto scene = scene_of("box");
   Vectors<3> f(scene.x.size());
   auto bonds = std::make_unique<Lattice>(make_bonds<Lattice>(scene));
@@ -379,7 +379,7 @@ static_assert(WithoutVelocities<hmps::InternalForce<Lattice, hmps::Artificial<do
 static_assert(!WithoutVelocities<hmps::InternalForce<Lattice, hmps::Viscous>>);
 
 // The length of an edge in place of the volume of its cube.
-TEST(InternalForce, RefusesAnEnergyOfVolumesThatAreNone) {
+TEST(InternalForce, RejectsAnEnergyOfInvalidVolumes) {
   const auto scene = scene_of("box");
   const auto bonds = make_bonds<Lattice>(scene);
   const auto force = hmps::internal_force(bonds, hmps::elastic(law));
@@ -404,7 +404,7 @@ struct Bursting {
   }
 };
 // With the sign of the stress reversed, a body was NaN within some thousand steps.
-TEST(InternalForce, RefusesALawWhoseStressFallsWhereTheStrainGrows) {
+TEST(InternalForce, RejectsALawWhoseStressFallsAsTheStrainGrows) {
   const auto bonds = make_bonds<Lattice>(scene_of("box"));
   EXPECT_NO_THROW((void)hmps::internal_force(bonds, hmps::elastic(Bursting{7e3})));
   EXPECT_TRUE(has(error_of([&] { (void)hmps::internal_force(bonds, hmps::elastic(Bursting{-7e3})); }),

@@ -39,7 +39,7 @@ TYPED_TEST(LaneMath, HaveTheFunctionsThatLawsCall) {
 }
 
 // Against long double over sixty decades, at the ends of the mantissa and next to powers of eight.
-TYPED_TEST(LaneMath, InverseCubeRootIsGoodToAFewUnitsInTheLastPlace) {
+TYPED_TEST(LaneMath, InverseCubeRootIsAccurateToAFewUnitsInTheLastPlace) {
   using T = TypeParam;
   using L = hmps::Lanes<T>;
   std::vector<T> numbers;

@@ -50,7 +50,7 @@ TYPED_TEST(Slots, ArraysHaveAMarginOfZerosAtBothEnds) {
 }
 
 // Numbers that were stored one by one are read a block at a time, and the other way round.
-TYPED_TEST(Slots, ArraysHandOutWhatWasKept) {
+TYPED_TEST(Slots, ReturnStoredValues) {
   constexpr auto width = static_cast<std::size_t>(hmps::Lanes<TypeParam>::width);
   constexpr std::size_t slots = 5 * width;
   auto arrays = marked<hmps::detail::SlotArrays<TypeParam, 10>>(10, slots);

@@ -39,7 +39,7 @@ TEST(VolumeShares, RefusesBadVolumes) {
             std::string::npos);
 }
 
-TEST(VolumeShares, OfBondsThatKnowNoneAreOne) {
+TEST(VolumeShares, AreOneWithoutVolumes) {
   struct Plain {
     using Scalar = double;
   };

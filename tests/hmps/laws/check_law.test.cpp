@@ -71,12 +71,12 @@ TEST(CheckLaw, NamesAFactorThatOnlyOneFormulaHas) {
   EXPECT_EQ(error_of<2>({.factor = 2.00001}, {.tolerance = 1e-4}), "");
 }
 
-TEST(CheckLaw, NamesAStressAtRestThatIsNotMeant) {
+TEST(CheckLaw, NamesAnUnintendedStressAtRest) {
   EXPECT_NE(error_of<3>({.rest = 1}).find("at F = 1, so that a body deforms before any load"), std::string::npos);
   EXPECT_EQ(error_of<3>({.rest = 1}, {.prestressed = true}), "");
 }
 
-TEST(CheckLaw, RejectsWhatIsNotFiniteAndSettingsOutOfRange) {
+TEST(CheckLaw, RejectsNonFiniteValuesAndSettingsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(error_of<3>({.factor = nan}), "");
   EXPECT_NE(error_of<3>({.rest = nan}, {.prestressed = true}), "");

@@ -52,7 +52,7 @@ template <class K>
 struct LawOf : testing::Test {};
 TYPED_TEST_SUITE(LawOf, law_checks::Kinds);
 
-TYPED_TEST(LawOf, UsersOwnLawIsTreatedLikeOurs) {
+TYPED_TEST(LawOf, TreatsUserLawsLikeThoseOfTheLibrary) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
   const UsersLaw law{1000, 3000};
@@ -89,7 +89,7 @@ TEST(Law, SoundSpeedOfUniaxialStrain) {
   EXPECT_THROW((void)sound_speed(UsersLaw{3000, 3000}, -1.0f), InputError);
 }
 
-TEST(SoundSpeed, IsRefusedForALawWithout) {
+TEST(SoundSpeed, RejectsInvalidModuli) {
   EXPECT_THROW((void)sound_speed(UsersLaw{-3000, 100}, 1000.0), InputError);
   EXPECT_THROW((void)sound_speed(UsersLaw{std::numeric_limits<double>::quiet_NaN(), 100}, 1000.0), InputError);
 }

@@ -26,7 +26,7 @@ TYPED_TEST(LinearElasticOf, IsALawOfTheDeformationGradient) {
   }
 }
 
-TYPED_TEST(LinearElasticOf, IsLinearAndBlindToInfinitesimalRotation) {
+TYPED_TEST(LinearElasticOf, IsLinearAndIgnoresInfinitesimalRotation) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
   const LinearElastic<T> law{T(3000), T(1000)};

@@ -151,7 +151,7 @@ TEST(MooneyRivlin, ModuliThatAreNotPositiveAreRefused) {
 
 // Numbers that are taken for D1 by mistake: Poisson's ratio, D1 in MPa, and the 2 / K of other programs in 1/Pa and
 // 1/MPa.
-TEST(MooneyRivlin, ConstantsThatAreNoD1AreRefused) {
+TEST(MooneyRivlin, RejectsConstantsThatAreNotD1) {
   for (const double d1 : {0.49, 0.3, 1.0, 1e-6, 1e-12, 2000.0}) {
     try {
       MooneyRivlin<double>::from_young(20e3, d1).validate();
@@ -169,7 +169,7 @@ TEST(MooneyRivlin, ConstantsThatAreNoD1AreRefused) {
 }
 
 // One spelling means one material in every law.
-TEST(MooneyRivlin, ModuliAreThoseThatItIsMadeFrom) {
+TEST(MooneyRivlin, HasTheModuliItIsMadeFrom) {
   const double E = 20e3, nu = 0.45, K = E / (3 * (1 - 2 * nu)), G = E / (2 * (1 + nu));
   const auto check = [&](const auto& law) {
     EXPECT_NEAR(law.bulk_modulus(), K, 1e-12 * K);

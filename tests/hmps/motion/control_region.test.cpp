@@ -142,7 +142,7 @@ TYPED_TEST(ControlRegionTest, TakesMotionsThatAreNotRigid) {
   EXPECT_LE((this->velocities[4] - S(2) * this->at_rest[4]).norm(), S(1e-7));
 }
 
-TYPED_TEST(ControlRegionTest, NamesWhatIsWrong) {
+TYPED_TEST(ControlRegionTest, NamesTheInvalidArgument) {
   using S = typename TestFixture::Scalar;
   constexpr int D = TestFixture::dimension;
   const auto reference = hmps::vectors(this->at_rest);
@@ -189,7 +189,7 @@ TEST(ControlRegionMisuse, IsRefused) {
 }
 
 /// A `Pose` is rigid by definition. A motion that is not rigid may be a lambda.
-TEST(ControlRegion, RefusesAPoseThatIsNoRotation) {
+TEST(ControlRegion, RejectsAPoseThatIsNotARotation) {
   using V = Vector<double, 3>;
   std::vector<V> X(3, V(1, 2, 3)), x = X, v(3, V::Zero());
   const auto reference = hmps::vectors(std::as_const(X));

@@ -20,7 +20,7 @@ TEST(FileReplacement, TheNewFileTakesThePlaceOfTheOld) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-TEST(FileReplacement, ALinkStaysALink) {
+TEST(FileReplacement, KeepsALink) {
   const hmps_test::TemporaryFolder folder;
   const auto file = folder.path() / "a.bin", link = folder.path() / "link.bin";
   detail::replace_file(file, "first");
@@ -30,7 +30,7 @@ TEST(FileReplacement, ALinkStaysALink) {
   EXPECT_EQ(detail::read_text(file.string()), "second");
 }
 
-TEST(FileReplacement, TheTemporaryNameIsNoWayToAnotherFile) {
+TEST(FileReplacement, DoesNotFollowALinkAtTheTemporaryName) {
   const hmps_test::TemporaryFolder folder;
   const auto other = folder.path() / "precious.txt", path = folder.path() / "a.bin",
              part = folder.path() / "a.bin.part";

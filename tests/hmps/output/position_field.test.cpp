@@ -20,7 +20,7 @@ std::vector<Vector<T, 3>> body(double spacing, const Vector<double, 3>& corner) 
   return x;
 }
 
-TEST(PositionField, KeepsApartWhatIsApart) {
+TEST(PositionField, KeepsDistinctPointsDistinct) {
   for (const double spacing : {1e-3, 2e-5}) {
     const auto x = body<double>(spacing, {1000, -1000, 0});
     const VtkField field = position_field("position", vectors(x));
@@ -29,7 +29,7 @@ TEST(PositionField, KeepsApartWhatIsApart) {
   }
 }
 
-TEST(PositionField, IsInSinglePrecisionWhereThatIsEnough) {
+TEST(PositionField, UsesSinglePrecisionWhereItSuffices) {
   for (const double spacing : {1e-3, 2e-5, 1e3}) {
     const auto x = body<double>(spacing, {0.03, 0, 0});
     EXPECT_EQ(position_field("position", vectors(x)).type, "Float32") << spacing;
@@ -57,7 +57,7 @@ TEST(PositionField, MeasuresTheSpacingOfBodiesThatAreApartAndOfListsInAnyOrder) 
   EXPECT_NEAR(detail::typical_spacing(vectors(block)), 1e-3, 1e-9);
 }
 
-TEST(PositionField, HoldsWhatSinglePrecisionCannot) {
+TEST(PositionField, UsesDoubleBeyondSinglePrecision) {
   const std::vector<Vector<double, 2>> large{{0, 0}, {1e300, 0}}, tiny{{0, 0}, {1e-44, 0}};
   EXPECT_EQ(position_field("position", vectors(large)).type, "Float64");
   EXPECT_EQ(position_field("position", vectors(tiny)).type, "Float64");

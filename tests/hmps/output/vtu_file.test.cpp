@@ -69,7 +69,7 @@ TEST(VtuFile, RefusesWhatDoesNotFit) {
   EXPECT_NE(error_of([&] { write_vtu(missing, vectors(cloud.x)); }).find(missing), std::string::npos);
 }
 
-TEST(VtuFile, ASeriesListsItsFramesAsTheyCome) {
+TEST(VtuFile, ASeriesListsEachFrameWhenItIsWritten) {
   Cloud cloud;
   const hmps_test::TemporaryFolder folder;
   VtuSeries frames(folder.path() / "deep" / "er" / "run.pvd");
@@ -85,7 +85,7 @@ TEST(VtuFile, ASeriesListsItsFramesAsTheyCome) {
             std::string::npos);
 }
 
-TEST(VtuFile, KeepsPointsApartAnywhere) {
+TEST(VtuFile, KeepsPointsDistinctFarFromTheOrigin) {
   std::vector<Vector<double, 3>> x;
   for (int k = 0; k < 10; ++k) x.push_back({1000 + 2e-5 * k, 0, 0});
   const hmps_test::TemporaryFolder folder;
@@ -110,7 +110,7 @@ TEST(VtuFile, NamesThatAreNotUtf8BecomeQuestionMarks) {
 }
 
 // VTK itself reads back what was written: read_vtu.py beside this file compares every value.
-TEST(VtuFile, VtkReadsItBack) {
+TEST(VtuFile, CanBeReadByVtk) {
   const std::string python = "/usr/bin/python3 ";
   if (std::system((python + "-c 'import vtk' 2>/dev/null").c_str()) != 0)
     GTEST_SKIP() << "the Python package of VTK is not here: apt-get install --no-install-recommends python3-vtk9";
@@ -126,7 +126,7 @@ TEST(VtuFile, VtkReadsItBack) {
   EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
 }
 
-TEST(VtuFileMisuse, TwoSeriesOnOnePathAreNoticed) {
+TEST(VtuFileMisuse, DetectsTwoSeriesOnOnePath) {
   const Cloud cloud;
   const hmps_test::TemporaryFolder folder;
   VtuSeries first(folder.path() / "run.pvd");
@@ -139,7 +139,7 @@ TEST(VtuFileMisuse, TwoSeriesOnOnePathAreNoticed) {
   EXPECT_EQ(detail::read_text((folder.path() / "run.pvd").string()), pvd_text(second.frames()));
 }
 
-TEST(VtuSeries, TakesAFrameAgainThatCouldNotBeWritten) {
+TEST(VtuSeries, AcceptsAFrameAgainAfterAWriteError) {
   const hmps_test::TemporaryFolder folder;
   const auto path = folder.path() / "run.pvd";
   const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
@@ -156,7 +156,7 @@ TEST(VtuSeries, TakesAFrameAgainThatCouldNotBeWritten) {
   EXPECT_EQ(series.frames().size(), 2U);
 }
 
-TEST(VtuSeries, StaysInItsFolderWhereverTheProgramGoes) {
+TEST(VtuSeries, StaysInItsFolderIfTheProgramChangesFolder) {
   const Cloud cloud;
   const hmps_test::TemporaryFolder folder, elsewhere;
   const auto before = std::filesystem::current_path();

@@ -96,7 +96,7 @@ double error_of_bent_bar(double spacing) {
   return largest;
 }
 
-TEST(CarriedSurface, ErrsInABentBarByTheSquareOfTheSpacing) {
+TEST(CarriedSurface, HasSecondOrderErrorInABentBar) {
   const double coarse = error_of_bent_bar(4e-3), fine = error_of_bent_bar(2e-3);
   EXPECT_LT(coarse, 0.1 * 4e-3);  // a tenth of a spacing, though the bar is bent to a radius of five thicknesses
   EXPECT_GT(std::log2(coarse / fine), 1.7);
@@ -128,7 +128,7 @@ TEST(CarriedSurface, WorksInThePlane) {
   EXPECT_NEAR((places[1] - Vector<double, 2>(11, 6.5)).norm(), 0, 1e-13);
 }
 
-TEST(CarriedSurface, RefusesWhatNothingCarries) {
+TEST(CarriedSurface, RejectsPointsThatNothingCarries) {
   Ball ball;
   std::vector<V> away{V(0, 0, 0)}, none, sheet;
   EXPECT_THROW(CarriedSurface(vectors(ball.reference), vectors(away), l0), InputError);
@@ -148,7 +148,7 @@ TEST(CarriedSurface, RefusesWhatNothingCarries) {
             0u);
 }
 
-TEST(CarriedSurface, RefusesToWriteWhatItReads) {
+TEST(CarriedSurface, RejectsOutputOverItsInput) {
   // As many points as particles, so that the sizes are right.
   Ball ball;
   const CarriedSurface carried(vectors(ball.reference), vectors(ball.reference), l0);

@@ -126,7 +126,7 @@ TEST(FitParticles, KeepsTheOutermostLayerHalfALayerInside) {
   EXPECT_NEAR(static_cast<double>(outermost), plate.volume() - 8 * 6 * 1, 0.1 * plate.volume());
 }
 
-TEST(FitParticles, SharesOutTheVolume) {
+TEST(FitParticles, DistributesTheVolume) {
   for (const double radius : {1.2, 3.0, 4.3}) {
     const hmps::Ball<double, 3> ball{.radius = radius};
     const auto fitted = fit_particles(ball, Box<double, 3>{V3::Constant(-5), V3::Constant(5)}, 1.0);
@@ -198,7 +198,7 @@ TEST(FitParticles, FillsTheMiddleOfABodyOfManySpacings) {
 
 // Each side of a narrow gap has the layers of its own part. Where both sides crossed one cell of the samples, the block
 // used to be hollow, and the particles of the plate clumped.
-TEST(FitParticles, TellsTheSidesOfANarrowGapApart) {
+TEST(FitParticles, DistinguishesTheSidesOfANarrowGap) {
   for (const double gap : {0.1, 0.3, 0.7})
     for (const double shift : {0.0, 0.31, 0.6}) {
       const Box<double, 3> block{V3(0, 0, shift - 10), V3(10, 10, shift)};
@@ -223,7 +223,7 @@ TEST(FitParticles, FillsWallsOfTheThinnestSpacing) {
   for (const float v : fitted.volumes) EXPECT_NEAR(v, 1, 0.4);
 }
 
-TEST(FitParticles, LeavesThinEdgesToTheirNeighboursAndFillsJunctions) {
+TEST(FitParticles, MergesThinEdgesIntoNeighboursAndFillsJunctions) {
   // A wedge of 30 degrees: 1.2 thick at 2.2 from its edge.
   const double a = 15 * 3.14159265358979 / 180;
   const auto wedge = hmps::intersect(hmps::HalfSpace<double, 3>{V3::Zero(), V3(-std::sin(a), 0, std::cos(a))},
@@ -296,7 +296,7 @@ TEST(FitParticles, LeavesNoParticleWithoutSupport) {
 }
 
 // Faces that meet at more than 60 degrees, as where a flaring body is cut, are not the two sides of a wall.
-TEST(FitParticles, TakesNoAcuteEdgeForAWall) {
+TEST(FitParticles, DoesNotTreatAnAcuteEdgeAsAWall) {
   for (const double degrees : {62.0, 66.0, 70.0}) {
     const double angle = degrees * 3.14159265358979 / 180;
     const auto flaring = [=](const Vector<double, 2>& x) {
@@ -320,7 +320,7 @@ TEST(FitParticles, GivesTheSameBitsByAnyExecutor) {
 
 // The distance to a mesh takes microseconds. Sampling every point of every cell that the surface cuts would take 3200
 // evaluations per particle.
-TEST(FitParticles, AsksTheShapeSeldom) {
+TEST(FitParticles, EvaluatesTheShapeRarely) {
   const Plate plate{2.9};
   std::size_t asked = 0;
   const auto counted = [&](const V3& x) {
@@ -369,7 +369,7 @@ TEST(FitParticles, AppendsAnotherPart) {
   EXPECT_EQ(both.largest_deviation, std::max(left.largest_deviation, right.largest_deviation));
 }
 
-TEST(FitParticles, TellsItsProgress) {
+TEST(FitParticles, ReportsProgress) {
   const hmps::Ball<double, 3> ball{.radius = 2};
   int calls = 0;
   double move = 0;

@@ -120,7 +120,7 @@ TYPED_TEST(Lattice, NoSiteIsLostBetweenBodiesThatTouch) {
   EXPECT_EQ(part(above), 55 * row / 10);
 }
 
-TYPED_TEST(Lattice, StartsAtTheOriginThatIsAskedFor) {
+TYPED_TEST(Lattice, StartsAtTheGivenOrigin) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;
   using V = Vector<S, D>;
@@ -143,7 +143,7 @@ TYPED_TEST(Lattice, IsTheSameForEveryExecutor) {
   EXPECT_EQ(serial, other);
 }
 
-TYPED_TEST(Lattice, IsEmptyWhereThereIsNothing) {
+TYPED_TEST(Lattice, IsEmptyOutsideTheShape) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;
   using V = Vector<S, D>;

@@ -25,7 +25,7 @@ class OpenSurfaceLattice : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(OpenSurfaceLattice, Scalars);
 
-TYPED_TEST(OpenSurfaceLattice, ClosedSurfacesAreFilledAsEver) {
+TYPED_TEST(OpenSurfaceLattice, FillsClosedSurfacesAsBefore) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto first = box_surface<S>(V(0, 0, 0), V(4, 4, 4));
@@ -96,7 +96,7 @@ TYPED_TEST(OpenSurfaceLattice, AnOpenEndIsClosedByAPlane) {
   EXPECT_GT(filled.doubtful_sites, 0u);
 }
 
-TYPED_TEST(OpenSurfaceLattice, SaysWhatItCannotFill) {
+TYPED_TEST(OpenSurfaceLattice, ReportsWhatItCannotFill) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));

@@ -67,7 +67,7 @@ TYPED_TEST(Support, IsTheSmallestEigenvalueInSquaredSpacings) {
   for (std::size_t k = 0; k < weak.size(); ++k) EXPECT_EQ(weak[k].particle, k);
 }
 
-TYPED_TEST(Support, FindsWhiskersAndLoosensOnlyThem) {
+TYPED_TEST(Support, FindsAndRemovesOnlyWhiskers) {
   using F = TestFixture;
   constexpr int D = F::dimension;
   typename F::Points points;
@@ -97,7 +97,7 @@ TYPED_TEST(Support, FindsWhiskersAndLoosensOnlyThem) {
   for (const auto& [particle, support] : weak) EXPECT_TRUE((~left)(particle)) << "with the support " << support;
 }
 
-TYPED_TEST(Support, RemovalEndsInTheSameSetForEveryOrderAndLeavesNoneWeak) {
+TYPED_TEST(Support, RemovalIsIndependentOfTheOrderAndLeavesNoWeakParticle) {
   using F = TestFixture;
   constexpr int D = F::dimension;
   std::mt19937 random(17);
@@ -183,7 +183,7 @@ TYPED_TEST(Support, NamesTheSpacingWhereNothingIsLeft) {
   }
 }
 
-TYPED_TEST(Support, RefusesSettingsThatMakeNoSense) {
+TYPED_TEST(Support, RejectsInvalidSettings) {
   using F = TestFixture;
   typename F::Points points;
   F::add_block(points, F::at(0), F::all(2));

@@ -98,7 +98,7 @@ TYPED_TEST(SurfaceLattice, OverlapsAreUnitedAndHolesStayEmpty) {
   EXPECT_EQ(hmps::fill_lattice(joined(first, box_surface<S>(V(0, 0, 6), V(4, 4, 8))), S(1)).size(), 64u + 32u);
 }
 
-TYPED_TEST(SurfaceLattice, RefusesOpenSurfacesAndSpacingsThatMakeNoSense) {
+TYPED_TEST(SurfaceLattice, RejectsOpenSurfacesAndInvalidSpacings) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(0, 0, 0), V(1, 1, 1));

@@ -103,7 +103,7 @@ TEST(SurfaceLayers, OfIrregularCloudsAreTheirLayers) {
   EXPECT_EQ(layers.two_outermost, where<3>(fitted.positions, [&](const V& x) { return ball(x) > -2; }));
 }
 
-TEST(SurfaceLayers, BodiesThatTouchAreToldApart) {
+TEST(SurfaceLayers, DistinguishTouchingBodies) {
   std::vector<V> points;
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 4; ++j)
@@ -131,7 +131,7 @@ TEST(SurfaceLayers, OfAreasAreFoundToo) {
             }));
 }
 
-TEST(SurfaceLayers, RefusesSpacingsThatMakeNoSense) {
+TEST(SurfaceLayers, RejectsInvalidSpacings) {
   const std::vector<V> points{V(0, 0, 0)}, none;
   EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), 0), hmps::InputError);
   EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), NAN), hmps::InputError);

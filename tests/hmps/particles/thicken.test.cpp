@@ -18,7 +18,7 @@ class Thicken : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Thicken, Scalars);
 
-TYPED_TEST(Thicken, GivesSupportToAThinOrganThatRemovalWouldEat) {
+TYPED_TEST(Thicken, SupportsAThinOrganThatRemovalWouldDestroy) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const double l0 = 1e-3;
@@ -61,7 +61,7 @@ TYPED_TEST(Thicken, LeavesForbiddenSitesFreeAndSupportedBodiesAlone) {
   EXPECT_TRUE(hmps::thicken(hmps::vectors(row), settings, [](const V&) { return false; }).empty());
 }
 
-TYPED_TEST(Thicken, RefusesCloudsThatAreNoLattice) {
+TYPED_TEST(Thicken, RejectsCloudsThatAreNotALattice) {
   using S = TypeParam;
   using V = Vector<S, 2>;
   std::vector<V> points{V(0, 0), V(1, 0), V(S(1.3), 1)};

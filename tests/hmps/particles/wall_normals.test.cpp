@@ -62,7 +62,7 @@ TEST(WallNormals, OfFittedParticlesAreZeroInBulk) {
   EXPECT_GT(in_bulk, 20);
 }
 
-TEST(WallNormals, RefuseWhatHasNoNormal) {
+TEST(WallNormals, RejectParticlesWithoutANormal) {
   const std::vector<Point> places{Point::Zero()};
   const auto normals = [&](const auto& shape, double spacing) {
     return [&places, shape, spacing] { (void)hmps::wall_normals(shape, hmps::vectors(places), spacing); };

@@ -35,7 +35,7 @@ std::vector<hmps::Vector<T, D>> cloud(std::size_t n, std::uint64_t seed) {
   return points;
 }
 
-TYPED_TEST(FixedRadius, FindsWhatBruteForceFinds) {
+TYPED_TEST(FixedRadius, AgreesWithBruteForce) {
   using T = std::tuple_element_t<0, TypeParam>;
   constexpr int D = std::tuple_element_t<1, TypeParam>::value;
   const auto points = cloud<T, D>(700, 5);
@@ -102,7 +102,7 @@ TYPED_TEST(FixedRadius, IsAClosedBall) {
 
 // Lattices whose spacing is not a binary fraction: the search must decide by the rounded distance, not by a bound of
 // the tree that is rounded in another way.
-TYPED_TEST(FixedRadius, LosesNothingToTheRoundingOfTheTree) {
+TYPED_TEST(FixedRadius, IsNotAffectedByTheRoundingOfTheTree) {
   using T = std::tuple_element_t<0, TypeParam>;
   constexpr int D = std::tuple_element_t<1, TypeParam>::value;
   scenes::Random random(9);
@@ -129,7 +129,7 @@ TYPED_TEST(FixedRadius, LosesNothingToTheRoundingOfTheTree) {
   }
 }
 
-TYPED_TEST(FixedRadius, TakesNoneAndOne) {
+TYPED_TEST(FixedRadius, HandlesNoParticleAndOneParticle) {
   using T = std::tuple_element_t<0, TypeParam>;
   constexpr int D = std::tuple_element_t<1, TypeParam>::value;
   std::vector<hmps::Vector<T, D>> points;

@@ -55,7 +55,7 @@ TYPED_TEST(GridTest, FindsAllWithinARadiusSortedByIndex) {
   }
 }
 
-TYPED_TEST(GridTest, SearchesAroundPlacesOutside) {
+TYPED_TEST(GridTest, SearchesAroundPointsOutside) {
   using S = typename TypeParam::S;
   this->fill(200, S(1));
   this->build(S(0.3));
@@ -66,7 +66,7 @@ TYPED_TEST(GridTest, SearchesAroundPlacesOutside) {
   }
 }
 
-TYPED_TEST(GridTest, BearsClumpsFarApartAndNothingAtAll) {
+TYPED_TEST(GridTest, HandlesDistantClumpsAndNoPoints) {
   using S = typename TypeParam::S;
   this->build(S(1));
   EXPECT_EQ(this->grid.size(), 0U);

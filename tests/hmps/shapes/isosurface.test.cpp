@@ -92,7 +92,7 @@ TYPED_TEST(Isosurface, ClosesWhateverTheSignsOfTheNodes) {
   EXPECT_GT(volume(mesh), 0);
 }
 
-TYPED_TEST(Isosurface, NeedsNoDistanceButTheSign) {
+TYPED_TEST(Isosurface, NeedsOnlyTheSign) {
   using S = TypeParam;
   const hmps::Ball<S, 3> ball{V<S>::Zero(), S(1)};
   const auto sign = [&](const V<S>& x) { return ball(x) < 0 ? S(-1) : S(1e6); };
@@ -132,7 +132,7 @@ TEST(Isosurface, DoesNotDependOnTheOrderOfTheWork) {
   EXPECT_EQ(forwards.triangles, backwards.triangles);
 }
 
-TEST(Isosurface, RefusesWhatItCannotCut) {
+TEST(Isosurface, RejectsShapesThatItCannotCut) {
   const hmps::Ball<double, 3> ball{V<double>::Zero(), 1};
   const auto refused = [&](const auto& shape, const hmps::Box<double, 3>& box, double cell) {
     return message_of<hmps::InputError>([&] { (void)isosurface(shape, box, cell); });

@@ -25,7 +25,7 @@ double sampled_distance(const std::array<V, 3>& t, const V& x, int n) {
   return least;
 }
 
-TEST(NearestOnTriangle, IsNearest) {
+TEST(NearestOnTriangle, FindsTheNearestPoint) {
   const auto points = random_points(300, 2);
   for (std::size_t k = 0; k + 3 < points.size(); k += 4) {
     const std::array<V, 3> t{points[k], points[k + 1], points[k + 2]};
@@ -37,7 +37,7 @@ TEST(NearestOnTriangle, IsNearest) {
   }
 }
 
-TEST(NearestOnTriangle, KnowsItsPartOfTheTriangle) {
+TEST(NearestOnTriangle, ReturnsTheNearestFeature) {
   const std::array<V, 3> t{V(0, 0, 0), V(4, 0, 0), V(0, 4, 0)};
   const auto part = [&](double x, double y) { return hmps::detail::nearest_on_triangle(t, V(x, y, 1)).part; };
   const auto of_edges = [&](double x, double y) { return hmps::detail::nearest_on_edges(t, V(x, y, 1)).part; };

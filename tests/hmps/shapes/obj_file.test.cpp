@@ -19,7 +19,7 @@ TEST(ObjFile, NumbersCornersForwardsAndBackwards) {
   EXPECT_EQ(mesh.triangles[3], (Triangle{0, 2, 3}));
 }
 
-TEST(ObjFile, NegativeNumbersCountOnlyWhatStandsBefore) {
+TEST(ObjFile, NegativeNumbersCountOnlyEarlierVertices) {
   hmps::SurfaceMesh<double> mesh;
   EXPECT_THROW(hmps::detail::ObjParser<double>(mesh, 1)("f -1 -2 -3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"), hmps::InputError);
 }

@@ -19,7 +19,7 @@ using V = hmps::Vector<double, 3>;
 using Box = hmps::Box<double, 3>;
 const Box around{V::Constant(-1.5), V::Constant(1.5)};
 
-TEST(Redistanced, IsTheDistanceOfAFunctionThatIsNone) {
+TEST(Redistanced, HandlesNonDistanceFunctions) {
   const hmps::Ball<double, 3> ball{V(0.1, -0.2, 0.05), 1};
   const auto steep = [&](const V& x) { return 40 * ball(x) * (2 + x[0]); };
   const auto distance = redistanced(steep, around, 0.05);
@@ -34,7 +34,7 @@ TEST(Redistanced, IsTheDistanceOfAFunctionThatIsNone) {
 }
 
 // By the minimum of the two distances, the middle of the joint lies 0.2 below the surface of either box.
-TEST(Redistanced, KnowsTheInsideOfUnitedParts) {
+TEST(Redistanced, FindsTheInsideOfUnitedParts) {
   const auto united = hmps::unite(Box{V(-1, -0.5, -0.5), V(0.2, 0.5, 0.5)}, Box{V(-0.2, -0.5, -0.5), V(1, 0.5, 0.5)});
   const auto distance = redistanced(united, around, 0.05);
   EXPECT_NEAR(united(V(0, 0, 0)), -0.2, 1e-12);
@@ -86,7 +86,7 @@ TEST(Redistanced, EndsAtTheFacesOfTheBox) {
 }
 
 // A plate whose width grows along x. In place of a distance, the shape has a multiple of |y| less the half width.
-TEST(Redistanced, LetsAnyShapeBeFitted) {
+TEST(Redistanced, CanFitAnyShape) {
   const auto plate = [](const V& x) {
     const double side = std::abs(x[1]) - 0.5 - 0.2 * (x[0] + 1) * (x[0] + 1) / 4;
     return std::max({std::abs(x[2]) - 0.15, 8 * side, std::abs(x[0]) - 1});

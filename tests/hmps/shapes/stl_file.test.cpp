@@ -18,7 +18,7 @@ std::string binary(std::uint32_t count, std::size_t triangles, std::string name 
   return name;
 }
 
-TEST(StlFile, TellsAsciiFromBinary) {
+TEST(StlFile, DistinguishesAsciiFromBinary) {
   for (const char* text : {"solid", "solid\n", "\n\t solid a", "\xEF\xBB\xBFsolid\r\n", "SOLID a"})
     EXPECT_TRUE(is_ascii_stl(text)) << text;
   for (const char* text : {"", "\n", "solids", "PK", "facet"}) EXPECT_FALSE(is_ascii_stl(text)) << text;

@@ -143,7 +143,7 @@ TYPED_TEST(SurfaceFile, BinaryStlIsReadWithItsTailButNotWithoutTriangles) {
                   "announces 10 triangles, which end at byte 584, but 100 bytes follow, enough for 2 more");
 }
 
-TYPED_TEST(SurfaceFile, ObjLinesGoOnAndFacesMayComeFirst) {
+TYPED_TEST(SurfaceFile, ObjLinesMayContinueAndFacesMayComeFirst) {
   using S = TypeParam;
   const std::string faces = "f 4 3 \\\n 2 1\nf 5 6 7\\ \r\n8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7 # \\\nf 4 1 5 8\n";
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 \\\n 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";

@@ -33,7 +33,7 @@ hmps::SurfaceMesh<S> exploded(const hmps::SurfaceMesh<S>& mesh) {
   return result;
 }
 
-TYPED_TEST(SurfaceMesh, KnowsItsVolumeAndBounds) {
+TYPED_TEST(SurfaceMesh, HasVolumeAndBounds) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(10, -1, 0), V(12, 2, 4));
@@ -112,7 +112,7 @@ TYPED_TEST(SurfaceMesh, OpenTurnedAndBrokenSurfacesAreNamed) {
   EXPECT_THROW(hmps::require_closed(bare), hmps::InputError);
 }
 
-TYPED_TEST(SurfaceMesh, SaysWhichTrianglesAreThereTwice) {
+TYPED_TEST(SurfaceMesh, NamesDuplicateTriangles) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto box = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
@@ -157,7 +157,7 @@ TYPED_TEST(SurfaceMesh, PartsMayShareTriangles) {
   EXPECT_EQ(hmps::drop_repeated(within).triangles.size(), 24u);
 }
 
-TYPED_TEST(SurfaceMesh, TellsFlapsFromHoles) {
+TYPED_TEST(SurfaceMesh, DistinguishesFlapsFromHoles) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   auto flap = box_surface<S>(V(0, 0, 0), V(2, 2, 2));
@@ -176,7 +176,7 @@ TYPED_TEST(SurfaceMesh, TellsFlapsFromHoles) {
   EXPECT_NE(text.find("inner wall"), std::string::npos) << text;
 }
 
-TYPED_TEST(SurfaceMesh, TellsInsideFromOutside) {
+TYPED_TEST(SurfaceMesh, DistinguishesInsideFromOutside) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   const auto hollow = joined(box_surface<S>(V(0, 0, 0), V(4, 4, 4)), reversed(box_surface<S>(V(1, 1, 1), V(3, 3, 3))));

@@ -61,7 +61,7 @@ TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
   EXPECT_NEAR(volume(torus), volume(hmps_test::torus_surface<double>(3, 1, 40, 5)), 1e-10);
 }
 
-TEST(SurfacePatch, RefusesLengthsThatCannotBe) {
+TEST(SurfacePatch, RejectsInvalidLengths) {
   for (const double longest : {0.0, -1.0, 1e-4}) EXPECT_THROW((void)refine(brick(), longest), InputError) << longest;
 }
 
@@ -77,7 +77,7 @@ TEST(SurfacePatch, OfASurfaceThatIsInsideOutIsRefused) {
   EXPECT_THROW((void)surface_patch(inside_out(), all), InputError);
 }
 
-TEST(SurfaceMeasures, RefuseTrianglesOfVerticesThatAreNotThere) {
+TEST(SurfaceMeasures, RejectTrianglesOfMissingVertices) {
   SurfaceMesh<double> mesh = brick();
   mesh.triangles[3][1] = 99999;
   EXPECT_THROW((void)area(mesh), InputError);

@@ -95,7 +95,7 @@ TYPED_TEST(Sweep, PlateIsWideThickBentAndBowed) {
   EXPECT_NEAR(bent.arc(V(1, 0, S(2.1))), S(3), S(1e-5));
 }
 
-TYPED_TEST(Sweep, RefusesRowsThatMakeNoShape) {
+TYPED_TEST(Sweep, RejectsInvalidRows) {
   using S = TypeParam;
   using V = Vector<S, 3>;
   using V2 = Vector<S, 2>;

@@ -74,7 +74,7 @@ TEST(TriangleTree, ApproximatesBetterWithAccuracy) {
   EXPECT_LT(worst(8), coarse / 32);
 }
 
-TEST(TriangleTree, RefusesWhatIsNoSurface) {
+TEST(TriangleTree, RejectsInvalidSurfaces) {
   auto box = box_surface<double>(V(0, 0, 0), V(1, 1, 1));
   EXPECT_THROW((void)hmps::TriangleTree(box, 1), hmps::InputError);
   EXPECT_THROW((void)hmps::TriangleTree(box, std::numeric_limits<double>::quiet_NaN()), hmps::InputError);

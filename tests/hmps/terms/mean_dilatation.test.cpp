@@ -184,7 +184,7 @@ TYPED_TEST(MeanDilatation, IsTheSameForTheParticlesThatMove) {
   }
 }
 
-TEST(SplitBulkModulus, NamesWhatIsWrong) {
+TEST(SplitBulkModulus, NamesTheInvalidArgument) {
   EXPECT_THROW((void)hmps::split_bulk_modulus(0.0, 1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::split_bulk_modulus(1.0, -1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::mean_dilatation(-1.0), hmps::InputError);

@@ -44,7 +44,7 @@ const Vector along_x(1, 0, 0), diagonal(1, 1, 0);
 
 // Sheets of two or more particles bend as they should, while without a mean dilatation those of an even number lock.
 // Prints the table in docs/theory.md.
-TEST(SheetStabiliser, LetsNoSheetLock) {
+TEST(SheetStabiliser, PreventsLockingOfSheets) {
   std::printf(
       "| kappa/mu | layers | without | mean dilatation | 45 degrees | k h = 1.5 | E_hat = mu | 3/2 mu | chosen |\n"
       "|---|---|---|---|---|---|---|---|---|\n");
@@ -109,7 +109,7 @@ TEST(SheetStabiliser, LeavesNoSpuriousModeAndNoSmallerStep) {
     }
 }
 
-TEST(SheetStabiliser, NamesWhatIsWrong) {
+TEST(SheetStabiliser, NamesTheInvalidArgument) {
   EXPECT_THROW((void)hmps::sheet_stabiliser(1, 10.0, 1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::sheet_stabiliser(3, -1.0, 1.0), hmps::InputError);
   EXPECT_THROW((void)hmps::sheet_stabiliser(3, 10.0, 0.0), hmps::InputError);

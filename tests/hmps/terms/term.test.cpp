@@ -102,7 +102,7 @@ TYPED_TEST(Parameters, ArePerParticleAndPerBody) {
   }
 }
 
-TYPED_TEST(Parameters, OfAnotherSizeOrOfAnUnknownBodyAreRefused) {
+TYPED_TEST(Parameters, RejectOtherSizesAndUnknownBodies) {
   using K = TypeParam;
   const auto points = scenes::box<2>({7, 5});
   const hmps::LatticeBonds<K, 2> bonds(hmps::vectors(points), {.spacing = scenes::Scene<2>::spacing});

@@ -33,7 +33,7 @@ double modulus(int layers, double apart) {
 
 // In bulk, the law keeps the modulus of a plate less the 4/3 mu of shear, and all of the bulk modulus if Poisson's
 // ratio is zero.
-TEST(ThinWallStabiliser, LeavesTheLawWhatAPlateNeeds) {
+TEST(ThinWallStabiliser, GivesTheLawTheShareThatAPlateNeeds) {
   const auto split = [](double bulk) {
     return hmps::thin_wall_stabiliser(std::vector<int>{0}, std::vector<double>{1}, 1, bulk, 1.0).bulk;
   };
@@ -81,7 +81,7 @@ TEST(ThinWallStabiliser, FollowsTheSpacingOfTheLayers) {
   EXPECT_NEAR(modulus(3, 0.6), modulus(3, 0.6000001), 1e-6);
 }
 
-TEST(ThinWallStabiliser, NamesWhatIsWrong) {
+TEST(ThinWallStabiliser, NamesTheInvalidArgument) {
   EXPECT_THROW((void)modulus(1, 1), hmps::InputError);
   EXPECT_THROW((void)modulus(-1, 1), hmps::InputError);
   EXPECT_THROW((void)modulus(3, 0.5), hmps::InputError);

@@ -63,7 +63,7 @@ TEST(Viscous, DampingHasTheStandardValues) {
   EXPECT_NEAR(hmps::viscous(1000, 2e-3).damping(bonds), expected, 1e-6 * expected);
 }
 
-TEST(Viscous, RefusesImpossibleFluids) {
+TEST(Viscous, RejectsInvalidParameters) {
   EXPECT_NO_THROW((void)hmps::viscous(1000, 0));
   for (const double bad : {0.0, -1000.0, std::numeric_limits<double>::quiet_NaN()}) {
     const std::string text = error_of([&] { (void)hmps::viscous(bad, 2e-3); });

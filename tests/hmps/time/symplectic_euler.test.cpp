@@ -25,7 +25,7 @@ template <class K>
 struct SymplecticEulerOf : testing::Test {};
 TYPED_TEST_SUITE(SymplecticEulerOf, Kinds);
 
-TYPED_TEST(SymplecticEulerOf, VerbsDoWhatTheEquationsSay) {
+TYPED_TEST(SymplecticEulerOf, FunctionsImplementTheEquations) {
   using T = typename TypeParam::Scalar;
   constexpr int D = TypeParam::D;
   std::vector<Vector<T, D>> x(5), v(5), f(5);
@@ -115,7 +115,7 @@ TEST(SymplecticEuler, StaysBoundedUpToTwoOverOmegaOnly) {
   EXPECT_GT(oscillate(2000, 2000 * 2.01 / (2 * std::numbers::pi))[2], 1e10);
 }
 
-TEST(SymplecticEuler, CompensatedDriftInFloatKeepsPaceWithDouble) {
+TEST(SymplecticEuler, CompensatedDriftInFloatAgreesWithDouble) {
   // A particle 0.1 m from the origin moves at up to 0.02 m/s: its increment at dt = 1e-5 s is 27 units in the last
   // place of x, so the plain drift loses a few per cent of each.
   const double dt = 1e-5;
@@ -153,7 +153,7 @@ TEST(SymplecticEuler, BadInputIsRefused) {
   EXPECT_THROW(drift(vectors(x), vectors(v), vectors(few), 1e-5), InputError);
 }
 
-TEST(Drift, RefusesCarriesThatAreNoRoundingErrors) {
+TEST(Drift, RejectsCarriesThatAreNotRoundingErrors) {
   std::vector<hmps::Vector<float, 2>> x(100, {0.1F, -0.2F}), v(100, {1, 0}), carry(100, {0, 0});
   const auto drift = [&] { hmps::drift(hmps::vectors(x), hmps::vectors(v), hmps::vectors(carry), 1e-3); };
   for (int step = 0; step < 3; ++step) EXPECT_NO_THROW(drift());
