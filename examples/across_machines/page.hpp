@@ -134,11 +134,11 @@ template <class Cell>
   std::string text = R"(
 ## Counted
 
-The scene is counted at its start, when the block lies on the plate. Each column is a number of parts. A row shows strong
-scaling. Each row has four times the particles of the row below it, so two columns to the right and one row up show weak
-scaling. Up to 400 thousand particles METIS partitions the graph of the particles; beyond that, the graph of cubes with 2
-particles along each side, and beyond three million with 4. Cubes that touch across the contact are joined in the graph,
-)" + std::to_string(contact_weight) +
+The scene is counted at its start, when the block lies on the plate. Each column is a number of parts. A row shows
+strong scaling. Each row has four times the particles of the row below it, so two columns to the right and one row up
+show weak scaling. Up to 400 thousand particles METIS partitions the graph of the particles; beyond that, the graph of
+cubes with 2 particles along each side, and beyond three million with 4. Cubes that touch across the contact are joined
+in the graph, )" + std::to_string(contact_weight) +
                      R"( times as strongly as by bonds (`--contact-weight`; 0: not at all).
 
 Largest number of bytes that a part receives in each step for its two layers (48 for a particle of the first layer, 24
