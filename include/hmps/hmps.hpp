@@ -66,6 +66,7 @@
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
+#include "hmps/core/first_failure.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/language.hpp"
 #include "hmps/core/math.hpp"

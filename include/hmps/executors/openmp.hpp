@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/first_failure.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
 /// Executor on OpenMP threads. Opt-in: compile and link with OpenMP yourself. An exception thrown by a body reaches the
-/// caller after the loop.
+/// caller after the loop; of several, that of the lowest index does, so that the message is the same in every run.
 ///
 /// The threads of most OpenMP runtimes spin while they wait for each other. On a machine that is busy with other
 /// programs, spinning threads take time from each other: with two cores and a load of six, two threads were four times
@@ -28,18 +28,17 @@ struct OpenMP {
     detail::require(threads <= most_threads(), "hmps: the number of OpenMP threads is ", threads, ", but there are ",
                     omp_get_num_procs(), " processors, for which at most ", most_threads(),
                     " are started: more would only wait for each other; check OMP_NUM_THREADS");
-    std::exception_ptr failure;
+    detail::FirstFailure failure;
     const auto end = static_cast<std::ptrdiff_t>(n);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::ptrdiff_t i = 0; i < end; ++i) {
       try {
         body(static_cast<std::size_t>(i));
       } catch (...) {
-#pragma omp critical(hmps_executor_failure)
-        if (!failure) failure = std::current_exception();
+        failure.keep(static_cast<std::size_t>(i));
       }
     }
-    if (failure) std::rethrow_exception(failure);
+    failure.rethrow();
   }
 
   /// Four threads per available processor, at least 16.

@@ -2,6 +2,7 @@
 #include "hmps/executors/onetbb.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include "same_bits.hpp"
 
@@ -15,6 +16,10 @@ TEST(OneTBB, CallsTheBodyOnceForEach) {
 }
 
 TEST(OneTBB, PropagatesExceptions) { same_bits::pass_exceptions_on(hmps::OneTBB{}); }
+
+TEST(OneTBB, HandsOnTheExceptionOfTheLowestIndex) {
+  tbb::task_arena(4).execute([] { same_bits::prefer_the_lowest_index(hmps::OneTBB{}); });
+}
 
 TEST(OneTBB, GivesTheSameBitsAsOneThread) {
   const auto check = [](const auto& probe) {

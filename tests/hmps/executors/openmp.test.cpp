@@ -18,6 +18,10 @@ TEST(OpenMP, PropagatesExceptions) {
   for (const int threads : {1, 4}) same_bits::pass_exceptions_on(hmps::OpenMP{threads});
 }
 
+TEST(OpenMP, HandsOnTheExceptionOfTheLowestIndex) {
+  for (const int threads : {1, 2, 4}) same_bits::prefer_the_lowest_index(hmps::OpenMP{threads});
+}
+
 TEST(OpenMP, RefusesNoThreads) {
   EXPECT_THROW(hmps::OpenMP{0}(1, [](std::size_t) {}), hmps::InputError);
 }

@@ -7,8 +7,11 @@
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
+#include "../../reference/message_of.hpp"
 #include "../../reference/scenes.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
@@ -42,6 +45,26 @@ void pass_exceptions_on(const E& execute) {
                        }),
                std::runtime_error);
   EXPECT_GE(calls, 1);
+}
+
+/// Index 0 fails after an index of the second half has failed, if they run at the same time.
+template <class E>
+void prefer_the_lowest_index(const E& execute) {
+  constexpr std::size_t n = 1000, most_turns = 100000;  // a single thread waits in vain
+  std::atomic<std::size_t> failed = n;
+  const std::string error = hmps_test::message_of<std::runtime_error>([&] {
+    execute(n, [&](std::size_t i) {
+      if (i == 0)
+        for (std::size_t turns = 0, after = 0; turns < most_turns && after < 1000; ++turns, after += failed < n)
+          std::this_thread::yield();
+      else if (i < n / 2)
+        return;
+      else
+        failed = i;
+      throw std::runtime_error(std::to_string(i));
+    });
+  });
+  EXPECT_EQ(error, "0");
 }
 
 /// Forces and deformation gradients of one state, to be compared bit by bit.
