@@ -63,6 +63,7 @@
 #include "hmps/core/anchored.hpp"
 #include "hmps/core/cell_volume.hpp"
 #include "hmps/core/direction.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"

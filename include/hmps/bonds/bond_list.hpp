@@ -17,6 +17,7 @@
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/places.hpp"
 #include "hmps/lanes/volume_shares.hpp"
@@ -213,7 +214,7 @@ class BondList : public Blocks<K, D> {
     places_ = detail::Places<K, D>(*this, reach);
     runs_.reserve(this->block_count());
     ShapeTensor<D> fullest;
-    detail::JoinedParticles joined(this->size());
+    detail::DisjointSets joined(this->size());
     std::array<std::vector<typename detail::BondRuns<K>::Bond>, 2> halves;
     for (std::size_t block = 0; block < this->block_count(); ++block) {
       for (auto& half : halves) half.clear();

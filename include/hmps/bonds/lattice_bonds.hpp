@@ -16,6 +16,7 @@
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/search/nearest_spacing.hpp"
@@ -176,7 +177,7 @@ class LatticeBonds : public Blocks<K, D> {
     std::vector<typename Rows::Placed> placed;
     std::vector<ShapeTensor<D>> shapes(n);
     ShapeTensor<D> inside;
-    detail::JoinedParticles joined(n);
+    detail::DisjointSets joined(n);
     detail::require(settings.radius_ratio >= 1 && settings.radius_ratio < 16, "hmps: the effective radius is ",
                     settings.radius_ratio, " spacings; on a lattice it must be at least 1 and below 16");
     auto around = detail::cells_within<D>(settings.radius_ratio);

@@ -14,6 +14,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/anchored.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
@@ -188,7 +189,7 @@ class Blocks : public detail::Anchored {
     standard_lambda_ = lambda;
   }
   /// Keeps the pieces of a body with the particle `spacing` (m) from all particles that bonds join.
-  void keep_pieces(detail::JoinedParticles& joined, double spacing) {
+  void keep_pieces(detail::DisjointSets& joined, double spacing) {
     pieces_ = detail::Pieces(joined, particle_of_);
     far_apart_ = 1.25e-5 * spacing / static_cast<double>(std::numeric_limits<K>::epsilon());
   }

@@ -2,46 +2,26 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Particles that bonds join, directly or through others.
-class JoinedParticles {
- public:
-  explicit JoinedParticles(std::size_t size) : parent_(size) {
-    for (std::size_t i = 0; i < size; ++i) parent_[i] = static_cast<Index>(i);
-  }
-  void join(std::size_t i, std::size_t j) {
-    const Index a = first_of(static_cast<Index>(i)), b = first_of(static_cast<Index>(j));
-    if (a != b) parent_[a < b ? b : a] = a < b ? a : b;
-  }
-  /// The lowest particle that is joined to `i`.
-  [[nodiscard]] Index first_of(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 /// The pieces of a body: no bond joins particles of two of them. Stores nothing if there is only one.
 class Pieces {
  public:
   Pieces() = default;
-  /// `particle_of` is the particle of each slot, or `no_index`.
-  HMPS_COLD Pieces(JoinedParticles& joined, const std::vector<Index>& particle_of) {
+  /// `joined` are the particles that bonds join; `particle_of` is the particle of each slot, or `no_index`.
+  HMPS_COLD Pieces(DisjointSets& joined, const std::vector<Index>& particle_of) {
     std::vector<Index> name(particle_of.size(), no_index), count;
     piece_of_.assign(particle_of.size(), 0);
     for (std::size_t slot = 0; slot < particle_of.size(); ++slot) {
       if (particle_of[slot] == no_index) continue;
-      Index& piece = name[joined.first_of(particle_of[slot])];
+      Index& piece = name[joined.lowest(particle_of[slot])];
       if (piece == no_index) {
         piece = static_cast<Index>(count.size());
         count.push_back(0);

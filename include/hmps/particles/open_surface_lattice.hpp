@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
@@ -40,7 +41,7 @@ namespace detail {
 /// Writes the number of holes and the size of the largest one to `result`.
 template <class S>
 void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges, OpenLattice<S>& result) {
-  VertexGroups groups(mesh.vertices.size());
+  DisjointSets groups(mesh.vertices.size());
   const auto is_open = [](const EdgeUse& edge) { return edge.uses() == 1; };
   for (const EdgeUse& edge : edges)
     if (is_open(edge)) groups.join(edge.low, edge.high);
@@ -49,7 +50,7 @@ void measure_holes(const SurfaceMesh<S>& mesh, const std::vector<EdgeUse>& edges
     if (!is_open(edge)) continue;
     for (const Index v : {edge.low, edge.high}) {
       const Vector<S, 3>& x = mesh.vertices[v];
-      Box<S, 3>& box = holes.try_emplace(groups.group(v), Box<S, 3>{x, x}).first->second;
+      Box<S, 3>& box = holes.try_emplace(groups.lowest(v), Box<S, 3>{x, x}).first->second;
       box.lower = box.lower.cwiseMin(x);
       box.upper = box.upper.cwiseMax(x);
     }

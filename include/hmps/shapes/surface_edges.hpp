@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -103,31 +103,11 @@ struct EdgeUse {
   return repeated;
 }
 
-/// Connected groups of vertices.
-class VertexGroups {
- public:
-  explicit VertexGroups(std::size_t vertices) : parent_(vertices) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  [[nodiscard]] Index group(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(Index a, Index b) {
-    a = group(a);
-    b = group(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 /// The triangles of connected parts in which every triangle occurs equally often in both orientations, so that the part
 /// encloses nothing; in order.
 [[nodiscard]] inline std::vector<std::size_t> double_sided(const Triangles& triangles, std::size_t vertices) {
   std::map<std::array<Index, 3>, int> net;
-  VertexGroups parts(vertices);
+  DisjointSets parts(vertices);
   const auto sorted = [](std::array<Index, 3> t) {
     std::sort(t.begin(), t.end());
     return t;
@@ -139,10 +119,10 @@ class VertexGroups {
   }
   std::vector<char> encloses(vertices, 0);
   for (const auto& [t, sum] : net)
-    if (sum != 0) encloses[parts.group(t[0])] = 1;
+    if (sum != 0) encloses[parts.lowest(t[0])] = 1;
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < triangles.size(); ++k)
-    if (!encloses[parts.group(triangles[k][0])]) found.push_back(k);
+    if (!encloses[parts.lowest(triangles[k][0])]) found.push_back(k);
   return found;
 }
 

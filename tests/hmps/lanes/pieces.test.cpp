@@ -9,19 +9,16 @@
 namespace pieces_test {
 
 using hmps::Index;
-using hmps::detail::JoinedParticles;
+using hmps::detail::DisjointSets;
 using hmps::detail::no_index;
 using hmps::detail::Pieces;
 
 TEST(Pieces, AreWhatBondsJoinDirectlyOrThroughOthers) {
-  JoinedParticles joined(7);
+  DisjointSets joined(7);
   joined.join(5, 3);
   joined.join(3, 1);
   joined.join(1, 5);
   joined.join(0, 6);
-  for (const Index i : {1U, 3U, 5U}) EXPECT_EQ(joined.first_of(i), 1U);
-  EXPECT_EQ(joined.first_of(6), 0U);
-  EXPECT_EQ(joined.first_of(4), 4U);
   // In the order of the slots: 5, 6, 3, 2, 4, 1, 0, and an empty one.
   const Pieces pieces(joined, {5, 6, 3, 2, 4, 1, 0, no_index});
   EXPECT_EQ(pieces.middle(), (std::vector<Index>{3, 0, 2, 4}));
@@ -31,13 +28,13 @@ TEST(Pieces, AreWhatBondsJoinDirectlyOrThroughOthers) {
 }
 
 TEST(Pieces, StoreNothingIfThereIsOnlyOne) {
-  JoinedParticles joined(3);
+  DisjointSets joined(3);
   joined.join(0, 2);
   joined.join(2, 1);
   const Pieces pieces(joined, {2, 0, 1, no_index});
   EXPECT_TRUE(pieces.middle().empty());
   EXPECT_EQ(pieces.bytes(), 0U);
-  JoinedParticles none(0);
+  DisjointSets none(0);
   EXPECT_TRUE(Pieces(none, std::vector<Index>()).middle().empty());
 }
 
