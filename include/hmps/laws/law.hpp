@@ -138,7 +138,10 @@ void require_modulus(P value, const char* law, const char* name, const char* rem
 }
 
 /// Throws `InputError` if Poisson's ratio is below -1/2, that is K < G / 6, with both moduli in Pa: this is true of few
-/// materials, but of every soft tissue whose moduli were interchanged.
+/// materials, but of every soft tissue whose moduli were interchanged. Between -1/2 and 0 there are materials, such as
+/// some foams, for which these laws hold, and the method needs no more than positive moduli. What serves nearly
+/// incompressible tissue only, `MooneyRivlin` and `split_bulk_modulus`, refuses all negative ratios, which other
+/// mistakes lead to as well.
 template <class P>
 void require_order(P bulk, P shear, const char* law) {
   require(P(6) * bulk >= shear, "hmps: the bulk modulus of ", law, " is ", bulk, " Pa with a shear modulus of ", shear,

@@ -33,8 +33,8 @@ struct MooneyRivlin {
   P d1;  ///< D1 in Pa, half the bulk modulus
 
   /// The law with Young's modulus `young` in Pa at zero strain by \paper{18}, E = 6 (C1 + C2), the volumetric constant
-  /// `d1` in Pa and the `ratio` C1 / C2 (the paper: 1). Note that the second argument of `from_young` of the other laws
-  /// is Poisson's ratio; `from_young_poisson` means the same in all laws.
+  /// `d1` in Pa and the `ratio` C1 / C2 (the paper: 1). Only this law has it; `from_young_poisson`, with Poisson's
+  /// ratio, means the same in all laws.
   [[nodiscard]] static MooneyRivlin from_young(P young, P d1, P ratio = P(1)) {
     const P c2 = young / (P(6) * (P(1) + ratio));
     return {ratio * c2, c2, d1};
@@ -60,7 +60,9 @@ struct MooneyRivlin {
 
   /// Throws `InputError` if C1 + C2 or D1 is not positive and finite, or if the bulk modulus 2 D1 is so small compared
   /// with the shear modulus that Poisson's ratio is negative. No tissue is like that; the cause is a D1 that is
-  /// Poisson's ratio, is in MPa, or is 2 / K as in other programs. One of C1, C2 may be negative, as some fits give it.
+  /// Poisson's ratio, is in kPa or MPa, or is 2 / K as in other programs. The bound is stricter than that of the other
+  /// laws, -1/2, because the D1 of soft tissue in kPa gives a ratio above that, such as -0.29. One of C1, C2 may be
+  /// negative, as some fits give it.
   void validate() const requires std::is_arithmetic_v<P> {
     detail::require_modulus(shear_modulus(), "MooneyRivlin", "shear modulus 2 (C1 + C2)",
                             "give C1 + C2 > 0, or from_young with a positive Young's modulus");

@@ -90,7 +90,8 @@ struct SplitBulkModulus {
 /// Gives the law twice `shear_modulus` (Pa), i.e. Poisson's ratio 0.29, and the rest of `bulk_modulus` (Pa) to the mean
 /// dilatation. With more in the law, sheets of two particles are too stiff; with less, those of three and more are too
 /// soft; docs/theory.md has the table. Throws `InputError` for moduli that are not positive, and for a bulk modulus
-/// below 2/3 of the shear modulus, with which Poisson's ratio would be negative, as when the two are interchanged.
+/// below 2/3 of the shear modulus, with which Poisson's ratio would be negative, as when the two are interchanged. Laws
+/// accept ratios from -1/2 on, but with a negative one nothing locks and there is nothing to divide.
 template <class P>
 [[nodiscard]] SplitBulkModulus<P> split_bulk_modulus(P bulk_modulus, P shear_modulus) {
   static_assert(detail::RequireReal<P>::value);

@@ -5,6 +5,11 @@
 
 #include <limits>
 
+#include "../../reference/message_of.hpp"
+#include "hmps/laws/linear_elastic.hpp"
+#include "hmps/laws/mooney_rivlin.hpp"
+#include "hmps/laws/neo_hookean.hpp"
+#include "hmps/laws/saint_venant_kirchhoff.hpp"
 #include "law_checks.hpp"
 
 namespace law_test {
@@ -87,6 +92,20 @@ TEST(Law, SoundSpeedOfUniaxialStrain) {
   EXPECT_DOUBLE_EQ(sound_speed(UsersLaw{3000, 3000}, 1000.0), 3.0);
   EXPECT_THROW((void)sound_speed(UsersLaw{3000, 3000}, 0.0), InputError);
   EXPECT_THROW((void)sound_speed(UsersLaw{3000, 3000}, -1.0f), InputError);
+}
+
+// Some foams have a negative Poisson's ratio; of soft tissue, it means that the moduli were interchanged.
+TEST(Law, AcceptsPoissonsRatiosFromMinusOneHalfOn) {
+  const auto accepts = [](const auto& law) { return hmps_test::message_of([&] { law.validate(); }).empty(); };
+  const auto all_accept = [&](double nu) {
+    const bool first = accepts(NeoHookean<>::from_young_poisson(1e4, nu));
+    EXPECT_EQ(accepts(SaintVenantKirchhoff<>::from_young_poisson(1e4, nu)), first) << nu;
+    EXPECT_EQ(accepts(LinearElastic<>::from_young_poisson(1e4, nu)), first) << nu;
+    return first;
+  };
+  for (const double nu : {-0.49, -0.3, 0.0, 0.49}) EXPECT_TRUE(all_accept(nu)) << nu;
+  for (const double nu : {-0.51, -0.9}) EXPECT_FALSE(all_accept(nu)) << nu;
+  EXPECT_FALSE(accepts(MooneyRivlin<>::from_young_poisson(1e4, -0.01)));
 }
 
 TEST(SoundSpeed, RejectsInvalidModuli) {

@@ -149,10 +149,10 @@ TEST(MooneyRivlin, ModuliThatAreNotPositiveAreRefused) {
   }
 }
 
-// Numbers that are taken for D1 by mistake: Poisson's ratio, D1 in MPa, and the 2 / K of other programs in 1/Pa and
-// 1/MPa.
+// Numbers that are taken for D1 by mistake: Poisson's ratio, D1 in MPa or kPa, and the 2 / K of other programs in 1/Pa
+// and 1/MPa. In kPa, Poisson's ratio is above the -1/2 from which other laws accept it.
 TEST(MooneyRivlin, RejectsConstantsThatAreNotD1) {
-  for (const double d1 : {0.49, 0.3, 1.0, 1e-6, 1e-12, 2000.0}) {
+  for (const double d1 : {0.49, 0.3, 1.0, 1e-6, 1e-12, 1000.0, 2000.0}) {
     try {
       MooneyRivlin<double>::from_young(20e3, d1).validate();
       ADD_FAILURE() << d1 << " passes";
