@@ -48,11 +48,11 @@ struct ViscousOfEach {
     detail::require_quantity(density, size, "densities of the viscous force");
     detail::require_quantity(viscosity, size, "viscosities");
   }
-  /// Throws `InputError` for a density or a viscosity that is negative or not finite.
+  /// Throws `InputError` for a density that is not positive, a viscosity that is negative, and one that is not finite.
   template <class K, int D>
   void check_parameters(const BlockOfParticles<K, D>& particles) const {
     detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(density, particles)),
-                                 "density of the viscous force", "kg/m3");
+                                 "density of the viscous force", "kg/m3", true);
     detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(viscosity, particles)), "viscosity", "m2/s");
   }
 };
@@ -77,7 +77,7 @@ void require_viscous(const Rho& density, const Nu& viscosity) {
   return {density, viscosity};
 }
 /// The same with views or callables for one or both. Their values are read at each evaluation. When `internal_force` is
-/// made, they are checked to be finite and not negative.
+/// made, it throws for the same values.
 template <PerParticle Rho, PerParticle Nu>
 requires(!std::is_arithmetic_v<Rho> || !std::is_arithmetic_v<Nu>)
     [[nodiscard]] ViscousOfEach<Rho, Nu> viscous(Rho density, Nu viscosity) {

@@ -80,4 +80,19 @@ TEST(Viscous, RejectsInvalidParameters) {
                hmps::InputError);
 }
 
+// One rule for a number and for the values of a view.
+TEST(Viscous, RefusesADensityOfZeroButNotAViscosityOfZero) {
+  const auto points = scenes::box<3>({3, 3, 3});
+  const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = scenes::Scene<3>::spacing});
+  std::vector<double> rho(points.size(), 1000), nu(points.size(), 0);
+  const auto make = [&] { (void)hmps::internal_force(bonds, hmps::viscous(hmps::scalars(rho), hmps::scalars(nu))); };
+  EXPECT_NO_THROW(make());
+  rho[5] = 0;
+  const std::string text = error_of(make);
+  EXPECT_TRUE(has(text, "density of the viscous force of particle 5 is 0 kg/m3") && has(text, "positive")) << text;
+  rho[5] = 1000;
+  nu[5] = -1e-3;
+  EXPECT_TRUE(has(error_of(make), "viscosity of particle 5 is -0.001 m2/s"));
+}
+
 }  // namespace viscous_test
