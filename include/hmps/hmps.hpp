@@ -62,6 +62,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/anchored.hpp"
 #include "hmps/core/cell_volume.hpp"
+#include "hmps/core/central_gradient.hpp"
 #include "hmps/core/direction.hpp"
 #include "hmps/core/disjoint_sets.hpp"
 #include "hmps/core/error.hpp"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/central_gradient.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"
@@ -72,11 +73,8 @@ class SurfaceCorrection {
     Vector<double, D> place = start;
     // For a true distance the first pass is exact.
     for (int pass = 0; pass < 3; ++pass) {
-      Vector<double, D> outward;
-      for (int c = 0; c < D; ++c) {
-        const Vector<double, D> step = 1e-3 * spacing * Vector<double, D>::Unit(c);
-        outward[c] = (distance(shape, place + step) - distance(shape, place - step)) / (2e-3 * spacing);
-      }
+      const Vector<double, D> outward = detail::central_gradient(
+          [&](const Vector<double, D>& x) { return distance(shape, x); }, place, 1e-3 * spacing);
       if (!(outward.squaredNorm() > 1e-2)) return std::nullopt;
       place -= (distance(shape, place) + 0.5 * spacing) / outward.squaredNorm() * outward;
     }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/central_gradient.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/finite.hpp"

@@ -45,19 +45,6 @@ template <class S>
   return exists ? distance : std::numeric_limits<S>::quiet_NaN();
 }
 
-/// The gradient of `shape` at `x` by central differences over `reach` (m) to either side.
-template <class F, int D>
-[[nodiscard]] Vector<double, D> central_gradient(const F& shape, const Vector<double, D>& x, double reach) {
-  Vector<double, D> g;
-  for (int c = 0; c < D; ++c) {
-    Vector<double, D> a = x, b = x;
-    a[c] -= reach;
-    b[c] += reach;
-    g[c] = (static_cast<double>(shape(b)) - static_cast<double>(shape(a))) / (2 * reach);
-  }
-  return g;
-}
-
 /// Parameter in [0, 1] of the point nearest to `x` on the segment from `from` to `to`; 0 if the segment is a point.
 template <class S, int D>
 [[nodiscard]] S nearest_on_segment(const Vector<S, D>& from, const Vector<S, D>& to, const Vector<S, D>& x) {
