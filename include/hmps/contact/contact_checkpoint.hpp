@@ -65,7 +65,9 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::restore_history(std::span
   const Vector<double, D> origin = place_at(head - D, "the origin");
   const auto count = static_cast<std::size_t>(positions);
   std::vector<Vector<double, D>> places(count);
-  std::vector<Index> particles(count);
+  std::vector<Index> particles(count), known;  // organs that are added later have particles, but no positions yet
+  for (const auto& member : organs.members()) known.push_back(member.particle);
+  std::sort(known.begin(), known.end());
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t first = head + width * n;
     const double particle = history[first];
@@ -74,6 +76,10 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::restore_history(std::span
                     "hmps: number ", first, " of the history is ", particle,
                     ", which is not a particle above the one before; was it changed?");
     particles[n] = static_cast<Index>(particle);
+    detail::require(std::binary_search(known.begin(), known.end(), particles[n]), "hmps: number ", first,
+                    " of the history is particle ", particles[n],
+                    ", which is in no organ of this contact; add the same organs as in the contact that gave the "
+                    "history, before you restore it");
     places[n] = place_at(first + 1, "a position");
   }
   history_.restore(history.subspan(head + width * count), organs.slots());

@@ -159,6 +159,35 @@ TEST(ContactMemory, SurvivesARestartBesideAnOrganThatIsAddedLater) {
   }
 }
 
+// Such a particle would hide all that come after it, whose slip would be lost without a word.
+TEST(ContactMemory, RefusesAHistoryWithAParticleThatIsInNoOrgan) {
+  Dragged<double> scene;
+  auto contact = scene.contact(), resumed = scene.contact();
+  scene.drag();
+  scene.friction(contact);
+  const std::vector<double> good = contact.history();
+  constexpr std::size_t head = 6, width = 4;
+  const auto count = static_cast<std::size_t>(good[2]);
+  ASSERT_GT(count, 2U);
+  std::size_t gaps = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double particle = good[head + width * n] + 1;
+    if (n + 1 < count && particle == good[head + width * (n + 1)]) continue;
+    std::vector<double> bad = good;
+    bad[head + width * n] = particle;
+    ++gaps;
+    const std::string error = message_of([&] { resumed.restore_history(bad); });
+    EXPECT_NE(error.find(hmps::detail::message("number ", head + width * n, " of the history is particle ", particle,
+                                               ", which is in no organ")),
+              std::string::npos)
+        << error;
+  }
+  EXPECT_GT(gaps, 1U);
+  resumed.restore_history(good);
+  scene.drag();
+  EXPECT_EQ(scene.friction(resumed), scene.friction(contact));
+}
+
 TEST(ContactMemory, GivesTheSameBitsAfterARestartFarFromTheOrigin) {
   Dragged<float> scene(5);
   auto contact = scene.contact();
