@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -106,13 +105,6 @@ class Grid {
           if (distance <= squared) visit(points_[q].index, distance);
         }
       }
-  }
-
-  /// Writes the points within `radius` of `centre` to `found`, sorted by index.
-  void within(const Point& centre, S radius, std::vector<Index>& found) const {
-    found.clear();
-    visit(centre, radius, [&](Index k, S) { found.push_back(k); });
-    std::sort(found.begin(), found.end());
   }
 
  private:
