@@ -141,6 +141,7 @@
 #include "hmps/particles/fitted_volumes.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/open_surface_lattice.hpp"
+#include "hmps/particles/particles_near.hpp"
 #include "hmps/particles/patch_pressure.hpp"
 #include "hmps/particles/support.hpp"
 #include "hmps/particles/surface_lattice.hpp"

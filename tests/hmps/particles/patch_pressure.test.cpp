@@ -97,22 +97,6 @@ TEST(PatchPressure, TakesParticlesOfTheirOwnVolumeAndAddsToWhatIsThere) {
     EXPECT_NEAR((half[i] - V(0, 0, 1) - 2 * whole[i]).norm(), 0, 1e-12 * (1 + half[i].norm()));
 }
 
-TEST(PatchPressure, ParticlesNearAPatchAreThoseOfItsLayer) {
-  const Body body = brick();
-  const auto base = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] < -0.5; });
-  const auto held = particles_near(vectors(body.x), base, 0.99 * l0);
-  EXPECT_EQ(held.size(), 8u * 6u);
-  EXPECT_EQ(held.scene_size(), body.x.size());
-  for (const Index i : held) EXPECT_NEAR(body.x[i][2], l0 / 2, 1e-9);
-  EXPECT_THROW((void)particles_near(vectors(body.x), base, 0.4 * l0), InputError);
-  EXPECT_THROW((void)particles_near(vectors(body.x), base, 0), InputError);
-  EXPECT_THROW((void)particles_near(vectors(body.x), base, 2.0), InputError) << "millimetres";
-  // In millimetres too, the patch passes close to the particles around the origin.
-  auto in_millimetres = base;
-  for (V& vertex : in_millimetres.vertices) vertex *= 1e3;
-  EXPECT_THROW((void)particles_near(vectors(body.x), in_millimetres, 0.99 * l0), InputError);
-}
-
 TEST(PatchPressure, RefusesWhatDoesNotFit) {
   Body body = brick();
   const PatchPressure load(vectors(body.x), body.mesh, l0);
