@@ -183,7 +183,7 @@ class BondList : public Blocks<K, D> {
     const FixedRadiusSearch<T, D> search(reference);
     detail::require_plausible_spacing(search, settings, reach);
     const NeighbourList list = find_neighbours(search, reach);
-    keep_bonds(
+    set_bonds(
         static_cast<double>(reach), settings.spacing,
         [&](Index i, const auto& keep) {
           for (const Index j : list[i]) {
@@ -200,7 +200,7 @@ class BondList : public Blocks<K, D> {
   template <class T>
   BondList(const VectorView<T, D>& reference, const detail::OwnBonds& own)
       : Base(reference, checked_order(reference, {.spacing = own.spacing(reference)})) {
-    keep_bonds(own.longest(reference), own.spacing(reference), [&](Index i, const auto& keep) {
+    set_bonds(own.longest(reference), own.spacing(reference), [&](Index i, const auto& keep) {
       for (const auto& bond : own[i])
         keep(bond.neighbour, this->reference(bond.neighbour) - this->reference(i), bond.weight);
     });
@@ -210,7 +210,7 @@ class BondList : public Blocks<K, D> {
   /// (m) is that of the particles. Particles
   /// without bonds are an error unless they may be `unbonded`.
   template <class Visit>
-  void keep_bonds(double reach, double spacing, Visit&& visit, bool unbonded = false) {
+  void set_bonds(double reach, double spacing, Visit&& visit, bool unbonded = false) {
     places_ = detail::Places<K, D>(*this, reach);
     runs_.reserve(this->block_count());
     ShapeTensor<D> fullest;
@@ -227,7 +227,7 @@ class BondList : public Blocks<K, D> {
           shape.add(r0, w);
           if (j > i) joined.join(i, j);
         });
-        this->keep_shape(i, shape.inverse(i, unbonded), shape.asymmetry, shape.A.trace());
+        this->set_shape(i, shape.inverse(i, unbonded), shape.asymmetry, shape.A.trace());
         if (shape.weight > fullest.weight) fullest = shape;
       }
       runs_.add(halves);
@@ -235,9 +235,9 @@ class BondList : public Blocks<K, D> {
     detail::require_standard_weight(fullest.weight);
     // If no particle has a bond, nothing is summed and any scale will do.
     if (this->size() > 0)
-      this->keep_standard(fullest.weight > 0 ? fullest.weight : 1,
-                          fullest.weight > 0 ? fullest.A.trace() / fullest.weight : spacing * spacing);
-    this->keep_pieces(joined, spacing);
+      this->set_standard(fullest.weight > 0 ? fullest.weight : 1,
+                         fullest.weight > 0 ? fullest.A.trace() / fullest.weight : spacing * spacing);
+    this->set_pieces(joined, spacing);
     runs_.pad(ahead);
   }
 

@@ -52,7 +52,7 @@ concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &
   { bonds.last_slot(std::size_t{0}) } -> std::convertible_to<std::size_t>;
   typename B::template Slots<std::size_t{B::dimension}>;
   slots(std::size_t{0}, std::size_t{0}) = typename B::Scalar{};
-  slots.keep(std::size_t{0}, std::size_t{0}, lanes);
+  slots.store(std::size_t{0}, std::size_t{0}, lanes);
   { kept.lanes(std::size_t{0}, std::size_t{0}) } -> std::convertible_to<Lanes<typename B::Scalar>>;
   { kept.bytes() } -> std::convertible_to<std::size_t>;
 };

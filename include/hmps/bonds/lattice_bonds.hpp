@@ -222,11 +222,11 @@ class LatticeBonds : public Blocks<K, D> {
     }
     rows_ = Rows(placed, this->block_count());
     for (std::size_t i = 0; i < n; ++i)
-      this->keep_shape(i, shapes[i].inverse(i, settings.unbonded), shapes[i].asymmetry, shapes[i].A.trace());
+      this->set_shape(i, shapes[i].inverse(i, settings.unbonded), shapes[i].asymmetry, shapes[i].A.trace());
     this->share_shapes();
-    this->keep_pieces(joined, settings.spacing);
+    this->set_pieces(joined, settings.spacing);
     detail::require_standard_weight(inside.weight);
-    this->keep_standard(inside.weight, inside.A.trace() / inside.weight);
+    this->set_standard(inside.weight, inside.A.trace() / inside.weight);
   }
 
   /// The axes along which `cell` differs from the origin.

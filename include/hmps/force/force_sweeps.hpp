@@ -78,7 +78,7 @@ class ForceSweeps {
       const BlockParameters<K, D> particles(bonds, block);
       T sum(damping_);
       std::apply([&](const auto&... term) { (add_damping_of_each(term, particles, sum), ...); }, terms_);
-      damping_each_.keep(0, block * B::width, sum);
+      damping_each_.store(0, block * B::width, sum);
     }
   }
 
@@ -87,8 +87,8 @@ class ForceSweeps {
     const std::size_t slot = block * B::width;
     const Matrix<T, D> F =
         detail::deformation_gradient_lanes(bonds, block, displacement_, bonds.shape_inverse_lanes(block));
-    for (int k = 0; k < D * D; ++k) coupling_.keep(static_cast<std::size_t>(k), slot, F(k % D, k / D));
-    dilatation_.keep(0, slot, carried_scale(bonds, block) * (determinant(F) - T(1)));
+    for (int k = 0; k < D * D; ++k) coupling_.store(static_cast<std::size_t>(k), slot, F(k % D, k / D));
+    dilatation_.store(0, slot, carried_scale(bonds, block) * (determinant(F) - T(1)));
   }
   /// Second sweep of the mean dilatation: v d U'(theta).
   void press(const B& bonds, std::size_t block) {
@@ -101,14 +101,14 @@ class ForceSweeps {
     const BlockOfParticles<K, D> particles(bonds, block, F, inverse);
     T pressure(0);
     std::apply([&](const auto&... term) { (add_pressure(term, particles, theta, pressure), ...); }, terms_);
-    kept.keep(0, slot, carried_scale(bonds, block) * pressure);
+    kept.store(0, slot, carried_scale(bonds, block) * pressure);
   }
   /// If the mean is taken twice: the additional mean, of the dilatation before `press` and of the pressure after it.
   void average(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const T d = scales_.lanes(0, slot);
-    pressure_.keep(0, slot,
-                   carried_scale(bonds, block) * (d * detail::sum_over_neighbourhood(bonds, block, dilatation_)));
+    pressure_.store(0, slot,
+                    carried_scale(bonds, block) * (d * detail::sum_over_neighbourhood(bonds, block, dilatation_)));
   }
   /// Computes the coupling of the particles of `block`.
   void couple(const B& bonds, std::size_t block) {
@@ -133,8 +133,8 @@ class ForceSweeps {
     }
     // The last sweep works on displacements: c r_ij = c r0_ij + c (u_j - u_i).
     for (int d = 0; d < D; ++d) coupling.M(d, d) += coupling.c;
-    for (int k = 0; k < D * D; ++k) coupling_.keep(static_cast<std::size_t>(k), slot, coupling.M(k % D, k / D));
-    coupling_.keep(D * D, slot, coupling.c);
+    for (int k = 0; k < D * D; ++k) coupling_.store(static_cast<std::size_t>(k), slot, coupling.M(k % D, k / D));
+    coupling_.store(D * D, slot, coupling.c);
   }
 
   /// The last sweep: the sum in `Coupling` over the bonds of the particles of `block`.

@@ -153,8 +153,8 @@ class Blocks : public detail::Anchored {
   }
 
   /// Stores the neighbourhood sums of `particle`: A^-1, sum w r0 and tr A; zero without bonds.
-  void keep_shape(std::size_t particle, const Matrix<double, D>& shape_inverse, const Vector<double, D>& asymmetric_sum,
-                  double trace) {
+  void set_shape(std::size_t particle, const Matrix<double, D>& shape_inverse, const Vector<double, D>& asymmetric_sum,
+                 double trace) {
     const std::size_t slot = slot_of_[particle];
     for (int c = 0; c < D; ++c) {
       shape_(asymmetry + static_cast<std::size_t>(c), slot) = static_cast<K>(asymmetric_sum[c]);
@@ -162,7 +162,7 @@ class Blocks : public detail::Anchored {
     }
     shape_(inverse_trace, slot) = trace > 0 ? static_cast<K>(1.0 / trace) : K(0);
   }
-  /// Call this once after the last `keep_shape`. Blocks whose particles all have the same neighbourhood, such as those
+  /// Call this once after the last `set_shape`. Blocks whose particles all have the same neighbourhood, such as those
   /// inside a lattice or along its faces, then share one copy.
   void share_shapes() {
     std::map<std::array<K, shape_components>, Index> shared;
@@ -181,15 +181,15 @@ class Blocks : public detail::Anchored {
     }
     Shapes shapes(kept.size() * width);
     for (std::size_t c = 0; c < shape_components; ++c)
-      for (std::size_t k = 0; k < kept.size(); ++k) shapes.keep(c, k * width, shape_.lanes(c, kept[k] * width));
+      for (std::size_t k = 0; k < kept.size(); ++k) shapes.store(c, k * width, shape_.lanes(c, kept[k] * width));
     shape_ = std::move(shapes);
   }
-  void keep_standard(double density, double lambda) {
+  void set_standard(double density, double lambda) {
     standard_density_ = density;
     standard_lambda_ = lambda;
   }
-  /// Keeps the pieces of a body with the particle `spacing` (m) from all particles that bonds join.
-  void keep_pieces(detail::DisjointSets& joined, double spacing) {
+  /// Stores the pieces of a body with the particle `spacing` (m) from all particles that bonds join.
+  void set_pieces(detail::DisjointSets& joined, double spacing) {
     pieces_ = detail::Pieces(joined, particle_of_);
     far_apart_ = 1.25e-5 * spacing / static_cast<double>(std::numeric_limits<K>::epsilon());
   }

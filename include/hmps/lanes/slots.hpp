@@ -70,8 +70,8 @@ class SlotArrays {
   [[nodiscard]] HMPS_INLINE Lanes<K> lanes(std::size_t component, std::size_t slot) const {
     return load(&(*this)(component, slot));
   }
-  HMPS_INLINE void keep(std::size_t component, std::size_t slot, const Lanes<K>& numbers) {
-    store(&(*this)(component, slot), numbers);
+  HMPS_INLINE void store(std::size_t component, std::size_t slot, const Lanes<K>& numbers) {
+    detail::store(&(*this)(component, slot), numbers);
   }
 
   /// A run: the lanes of consecutive slots from `first`, which may lie in the margin. `run[component]` loads one

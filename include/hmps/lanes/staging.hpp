@@ -51,7 +51,7 @@ HMPS_INLINE void stage(const Blocks<K, D>& blocks, std::size_t block, const Vect
       } else {
         for (std::size_t l = 0; l < width; ++l) staged.lane[l] = value(view(i + l, c), first + l, c);
       }
-      slots.keep(component, first, staged);
+      slots.store(component, first, staged);
     } else {
       for (std::size_t l = 0; l < width; ++l) {
         const Index i = blocks.particle(first + l);

@@ -149,12 +149,12 @@ template <class B, class K = typename B::Scalar>
     error = 0;
     for (std::size_t block = 0; block < bonds.block_count(); ++block) {
       const std::size_t slot = block * B::width;
-      carried.keep(0, slot, volume_share_lanes(bonds, block) * scales.lanes(0, slot));
+      carried.store(0, slot, volume_share_lanes(bonds, block) * scales.lanes(0, slot));
     }
     for (std::size_t block = 0; block < bonds.block_count(); ++block) {
       const std::size_t slot = block * B::width;
       const T own = scales.lanes(0, slot), sum = sum_over_neighbourhood(bonds, block, carried), mean = own * sum;
-      next.keep(0, slot, sqrt(own / sum));
+      next.store(0, slot, sqrt(own / sum));
       for (int l = 0; l < T::width; ++l) error = std::max(error, std::abs(mean.lane[l] - K(1)));
     }
     if (error < 16 * std::numeric_limits<K>::epsilon()) break;

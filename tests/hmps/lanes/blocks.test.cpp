@@ -27,8 +27,8 @@ struct Ordered : hmps::Blocks<K, 2> {
     shape.add({1, 0}, 0.5);
     shape.add({0.5, 2}, 0.25);
     for (std::size_t i = 0; i < points.size(); ++i)
-      this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
-    this->keep_standard(shape.weight, shape.A.trace() / shape.weight);
+      this->set_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
+    this->set_standard(shape.weight, shape.A.trace() / shape.weight);
   }
 };
 
@@ -76,7 +76,7 @@ struct Shared : hmps::Blocks<K, 2> {
       hmps::ShapeTensor<2> shape;
       shape.add({1, 0}, 0.5);
       shape.add({0.5, 2}, other(i) ? 0.5 : 0.25);
-      this->keep_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
+      this->set_shape(i, shape.inverse(i), shape.asymmetry, shape.A.trace());
     }
   }
   using hmps::Blocks<K, 2>::share_shapes;

@@ -57,7 +57,7 @@ TYPED_TEST(Slots, ReturnStoredValues) {
   for (std::size_t c = 0; c < 10; ++c) {
     const auto second = arrays.lanes(c, width);
     for (std::size_t l = 0; l < width; ++l) EXPECT_EQ(second.lane[l], static_cast<TypeParam>(mark(c, width + l)));
-    arrays.keep(c, 2 * width, second);
+    arrays.store(c, 2 * width, second);
   }
   for (std::size_t c = 0; c < 10; ++c)
     for (std::size_t s = 0; s < slots; ++s)
