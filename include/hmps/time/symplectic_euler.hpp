@@ -107,7 +107,7 @@ void require_carry(const VectorView<T, D>& x, const VectorView<U, D>& v, const V
 /// @param carry  in m, the excess of x over the exact sum; zero at the start, kept by the caller from step to step, and
 ///               part of a checkpoint
 /// A translation unit compiled with -ffast-math loses the compensation. Throws `InputError` as `drift` above does, and
-/// for carries that are no rounding errors, such as those of an array that nothing has set to zero.
+/// for carries larger than a rounding error, such as those of an uninitialised array.
 template <class T, class U, int D, Executor E = Serial>
 void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorView<T, D>& carry, double dt,
            const E& execute = {}) {
