@@ -134,7 +134,7 @@ class OwnBonds {
   [[nodiscard]] std::size_t checked(const I& i, std::size_t bond) const {
     const auto index = static_cast<std::size_t>(i);
     require(index < bonds_.size(), "hmps: bond ", bond, " names particle ", i, " but there are only ", bonds_.size(),
-            "; number them from 0");
+            "; indices start at 0");
     return index;
   }
 
@@ -171,7 +171,7 @@ class OwnBonds {
     for (std::size_t k = 0; k < list.size(); ++k) {
       const auto j = static_cast<std::size_t>(list[k]);
       require(j < bonds_.size(), "hmps: particle ", i, " has the neighbour ", list[k], " but there are only ",
-              bonds_.size(), " particles; number them from 0");
+              bonds_.size(), " particles; indices start at 0");
       const double w = weight<K>(weights, i, j, [&] {
         if constexpr (is_given<W>)
           return weights[i][k];

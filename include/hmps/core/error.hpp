@@ -135,4 +135,15 @@ void require(bool condition, const Parts&... parts) {
   if (!condition) throw_input_error({MessagePart(parts)...});
 }
 
+[[noreturn]] HMPS_COLD inline void throw_index_error(std::size_t index, std::size_t size, const char* item,
+                                                     const char* list) {
+  throw_input_error({"hmps: ", item, " ", index, " is out of range: ", list, " ", size, " ", item, size == 1 ? "" : "s",
+                     " (indices start at 0)"});
+}
+/// Throws an `InputError` unless `index` is below `size`, the number of `item`s, in words: `require_index(7, 5,
+/// "particle", "the list has")`.
+inline void require_index(std::size_t index, std::size_t size, const char* item, const char* list) {
+  if (index >= size) throw_index_error(index, size, item, list);
+}
+
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -32,7 +32,7 @@ class ParticleSet {
   ParticleSet(std::size_t size, const std::vector<Index>& indices) : member_(size) {
     for (const Index i : indices) {
       detail::require(i < size, "hmps: a set of particles names particle ", i, " but there are only ", size,
-                      "; number them from 0");
+                      "; indices start at 0");
       detail::require(member_[i] == 0, "hmps: a set of particles names particle ", i, " twice; name each once");
       member_[i] = 1;
     }

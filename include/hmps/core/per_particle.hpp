@@ -56,7 +56,7 @@ struct OneParticle {
                     index, " needs a body too; give one for each");
     const auto b = static_cast<std::size_t>(body[index]);
     detail::require(b < table.size(), "hmps: particle ", index, " belongs to body ", +body[index],
-                    " but the table of parameters has ", table.size(), " bodies; number them from 0");
+                    " but the table of parameters has ", table.size(), " bodies; indices start at 0");
     return static_cast<double>(table[b]);
   }
 };

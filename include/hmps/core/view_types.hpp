@@ -46,9 +46,9 @@ class View {
 
   /// The particles `[first, first + count)` of this view. Throws `InputError` if the view ends before the last of them.
   [[nodiscard]] View part(std::size_t first, std::size_t count) const {
-    detail::require(first <= size_ && count <= size_ - first, "hmps: a part of ", count, " particles from particle ",
-                    first, " on is asked for, but the view has only ", size_,
-                    "; give the first particle, then how many");
+    detail::require(first <= size_ && count <= size_ - first, "hmps: the part of ", count, " particles from particle ",
+                    first, " on is out of range: the view has ", size_,
+                    " particles (indices start at 0); give the first particle, then their number");
     std::array<T*, std::size_t{N}> moved{};
     for (int c = 0; c < N; ++c) moved[static_cast<std::size_t>(c)] = count == 0 ? base(c) : &(*this)(first, c);
     return {moved, count, stride_};

@@ -45,8 +45,7 @@ class Blocks : public detail::Anchored {
   /// The slot of `particle`. Throws `InputError`, like all functions here and in bonds that take the number of a
   /// particle, for one that does not exist.
   [[nodiscard]] std::size_t slot(std::size_t particle) const {
-    detail::require(particle < slot_of_.size(), "hmps: bonds are asked for particle ", particle,
-                    ", but they hold only ", slot_of_.size(), " particles; number them from 0");
+    detail::require_index(particle, slot_of_.size(), "particle", "these bonds have");
     return slot_of_[particle];
   }
 

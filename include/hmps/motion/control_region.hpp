@@ -50,7 +50,7 @@ class ControlRegion {
       detail::require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
                       " twice; name each once");
       detail::require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k],
-                      " is (", reference[sorted[k]].transpose(), "); give finite metres");
+                      " is (", reference[sorted[k]].transpose(), "); coordinates must be finite");
     }
   }
 
@@ -65,9 +65,7 @@ class ControlRegion {
   /// The prescribed position of the `k`-th particle of the region at time `t` (s). Throws `InputError` if `k` is out of
   /// range.
   [[nodiscard]] Vector<double, D> position(std::size_t k, double t) const {
-    detail::require(k < particles_.size(), "hmps: the position of particle ", k,
-                    " of a control region is asked for, but the region has ", particles_.size(),
-                    " particles, counted from 0");
+    detail::require_index(k, particles_.size(), "particle", "the control region has");
     return motion_(t)(reference_[particles_[k]].template cast<double>());
   }
 

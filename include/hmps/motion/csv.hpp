@@ -30,8 +30,9 @@ struct Table {
   [[nodiscard]] std::size_t columns() const { return names.size(); }
   /// The number in a cell, counted from 0. Throws `InputError` for a cell that does not exist.
   [[nodiscard]] double operator()(std::size_t row, std::size_t column) const {
-    detail::require(row < rows() && column < columns(), "hmps: row ", row, ", column ", column, " of ", source,
-                    " is asked for, but it has ", rows(), " rows and ", columns(), " columns; count both from 0");
+    detail::require(row < rows() && column < columns(), "hmps: row ", row, ", column ", column,
+                    " is out of range: ", source, " has ", rows(), " rows and ", columns(),
+                    " columns (indices start at 0)");
     return values[row * names.size() + column];
   }
 

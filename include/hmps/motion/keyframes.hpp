@@ -100,7 +100,8 @@ class Keyframes {
   }
   void require_time(double time) const {
     detail::require(!keys_.empty(), "hmps: a track that was moved from has no keyframes; use the one it was moved to");
-    detail::require(!detail::is_nan(time), "hmps: a track is asked for its value at the time NaN; give seconds");
+    detail::require(!detail::is_nan(time),
+                    "hmps: the time at which a track is evaluated is NaN; it must be a number in s");
   }
   [[nodiscard]] std::size_t piece(double time) const {
     const auto above = std::upper_bound(keys_.begin(), keys_.end(), time,

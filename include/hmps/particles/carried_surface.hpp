@@ -90,8 +90,7 @@ class CarriedSurface {
   [[nodiscard]] std::size_t size() const { return offset_.empty() ? 0 : offset_.size() - 1; }
   /// The shares of particles in point `p`, sorted by particle. Throws `InputError` for a point that does not exist.
   [[nodiscard]] std::span<const Share> shares(std::size_t p) const {
-    detail::require(p < size(), "hmps: the shares in point ", p,
-                    " of a carried surface are asked for, but it has only ", size(), " points; number them from 0");
+    detail::require_index(p, size(), "point", "the carried surface has");
     return std::span(share_).subspan(offset_[p], offset_[p + 1] - offset_[p]);
   }
 

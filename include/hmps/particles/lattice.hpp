@@ -103,7 +103,8 @@ template <class S, int D>
 [[nodiscard]] LatticeSites<D> lattice_sites(const Box<S, D>& box, S spacing, const Vector<S, D>& origin) {
   require(detail::is_finite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
           "; give a positive number of metres");
-  require(detail::all_finite(origin), "hmps: the lattice origin is (", origin.transpose(), "); give finite metres");
+  require(detail::all_finite(origin), "hmps: the lattice origin is (", origin.transpose(),
+          "); coordinates must be finite");
   require(
       detail::all_finite(box.lower) && detail::all_finite(box.upper) && (box.lower.array() <= box.upper.array()).all(),
       "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),

@@ -30,9 +30,9 @@ void require_extent(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
     high = high.cwiseMax(points[i].template cast<double>());
   }
   const double extent = (high - low).norm(), of_patch = static_cast<double>((box.upper - box.lower).norm());
-  require(distance <= extent, "hmps: particles within ", distance,
-          " m of a patch are asked for, but the particles themselves span only ", extent,
-          " m, so that all of them would qualify; give a distance such as the spacing, in metres");
+  require(distance <= extent, "hmps: the distance of particles to a patch is to be at most ", distance,
+          " m, but all particles lie within ", extent,
+          " m of each other, so that all of them would qualify; give a distance such as the spacing, in metres");
   require(of_patch < 100 * extent, "hmps: ", patch.source, " spans ", of_patch, " m, but the particles span only ",
           extent, " m; give both in metres (a file in millimetres is read with a scale of 1e-3)");
 }
@@ -47,8 +47,8 @@ void require_extent(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
 template <class T, class S, Executor E = Serial>
 [[nodiscard]] ParticleSet particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch, double distance,
                                          const E& execute = {}) {
-  detail::require(detail::is_finite(distance) && distance > 0, "hmps: particles within ", distance,
-                  " m of a patch are asked for; give a positive distance, such as the spacing");
+  detail::require(detail::is_finite(distance) && distance > 0, "hmps: the largest distance of particles to a patch is ",
+                  distance, " m; it must be positive, such as the spacing");
   require_finite(points, "the position");
   detail::require_extent(points, patch, distance);
   const TriangleTree tree(patch);

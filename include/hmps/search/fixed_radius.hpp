@@ -28,8 +28,7 @@ struct NeighbourList {
   [[nodiscard]] std::size_t size() const { return offset.empty() ? 0 : offset.size() - 1; }
   /// The neighbours of particle `i`. Throws `InputError` for a particle that does not exist.
   [[nodiscard]] std::span<const Index> operator[](std::size_t i) const {
-    detail::require(i < size(), "hmps: the neighbours of particle ", i, " are asked for, but the list has only ",
-                    size(), " particles; number them from 0");
+    detail::require_index(i, size(), "particle", "the list of neighbours has");
     return std::span(neighbour).subspan(offset[i], offset[i + 1] - offset[i]);
   }
 };
@@ -142,8 +141,7 @@ class FixedRadiusSearch {
   /// Distance (m) from `particle` to its nearest neighbour; infinite if there is none. Throws `InputError` for a
   /// particle that does not exist.
   [[nodiscard]] Scalar nearest(std::size_t particle) const {
-    detail::require(particle < points_.points.size(), "hmps: the nearest neighbour of particle ", particle,
-                    " is asked for, but there are only ", points_.points.size(), " particles");
+    detail::require_index(particle, points_.points.size(), "particle", "the search has");
     if (points_.points.size() < 2) return std::numeric_limits<Scalar>::infinity();
     Index index[2];
     Scalar squared[2];
@@ -160,7 +158,7 @@ class FixedRadiusSearch {
     detail::require(!detail::is_nan(radius) && radius >= 0, "hmps: the search radius is ", radius,
                     " m; it must not be negative");
     detail::require(detail::all_finite(centre), "hmps: a search is centred at (", centre.transpose(),
-                    "); give finite metres");
+                    "); coordinates must be finite");
   }
   static const Points& checked(const Points& set) {
     require_finite(set.points, "the position");

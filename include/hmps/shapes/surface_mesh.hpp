@@ -244,7 +244,7 @@ template <class S>
   detail::require(!mesh.triangles.empty(), "hmps: ", mesh.source,
                   " has no triangles; check that the file holds a surface");
   detail::require(detail::all_finite(x), "hmps: whether (", x.transpose(), ") is inside ", mesh.source,
-                  " cannot be decided; give a position in finite metres");
+                  " cannot be decided; coordinates must be finite");
   double angle = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     detail::require_corners(mesh, k);

@@ -42,12 +42,12 @@ HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Mat
             " Pa; check its parameters and formula");
     const Matrix<double, D> kirchhoff = stress * gradient.transpose();
     require((kirchhoff - kirchhoff.transpose()).norm() <= most * kirchhoff.norm(), "hmps: the law of particle ", i,
-            " gives a stress that turns the particle: P F^T is (by columns) ", kirchhoff,
+            " gives a stress that exerts a torque: P F^T is (by columns) ", kirchhoff,
             " Pa, and must be symmetric; is S symmetric, or is P returned instead of S, or transposed?");
     const Matrix<double, D> strain = gradient - Matrix<double, D>::Identity();
     require(rise.cwiseProduct(strain).sum() >= -most * rise.norm() * strain.norm(), "hmps: the law of particle ", i,
             " gives a stress that falls where the strain grows: at F - 1 = (by columns) ", strain, " P rises by ", rise,
-            " Pa, so that the body would burst from rest; is the sign of the stress right?");
+            " Pa, so the undeformed state is unstable; is the sign of the stress right?");
   }
 }
 
@@ -73,7 +73,7 @@ struct Elastic {
   }
 
   /// Throws `InputError` for a law of each particle with a bulk or shear modulus that is not positive, and for a law of
-  /// your own whose stress at a small strain is not finite, turns the particle (the Kirchhoff stress P F^T is not
+  /// your own whose stress at a small strain is not finite, exerts a torque (the Kirchhoff stress P F^T is not
   /// symmetric), or falls where the strain grows. Laws that validate themselves were checked when the term was made.
   template <class K, int D>
   requires(!detail::ValidatesItself<Law>) void check_parameters(const BlockOfParticles<K, D>& particles) const {

@@ -71,7 +71,7 @@ class BlockParameters {
     return gather([&](Index i) {
       const auto b = static_cast<std::size_t>(body[i]);
       detail::require(b < table.size(), "hmps: particle ", i, " belongs to body ", +body[i],
-                      " but the table of parameters has ", table.size(), " bodies; number them from 0");
+                      " but the table of parameters has ", table.size(), " bodies; indices start at 0");
       return table[b];
     });
   }

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+
+#include "../../reference/message_of.hpp"
 
 namespace error_test {
 
@@ -34,6 +37,15 @@ TEST(Error, RequireThrowsItsMessage) {
   } catch (const hmps::InputError& error) {
     EXPECT_STREQ(error.what(), "hmps: the spacing is -1.5 m");
   }
+}
+
+TEST(Error, RequireIndexNamesTheIndexAndTheSize) {
+  const auto message_of_index = [](std::size_t index, std::size_t size) {
+    return hmps_test::message_of([&] { hmps::detail::require_index(index, size, "particle", "the list has"); });
+  };
+  EXPECT_EQ(message_of_index(4, 5), "");
+  EXPECT_EQ(message_of_index(5, 5), "hmps: particle 5 is out of range: the list has 5 particles (indices start at 0)");
+  EXPECT_EQ(message_of_index(7, 1), "hmps: particle 7 is out of range: the list has 1 particle (indices start at 0)");
 }
 
 }  // namespace error_test

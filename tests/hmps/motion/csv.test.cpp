@@ -105,7 +105,7 @@ TEST(Csv, RefusesAHeaderOfNumbersAndATimeAsItsOwnValue) {
 TEST(Csv, RefusesCellsThatDoNotExist) {
   const auto table = hmps::parse_csv("t,x\n0,1\n1,3\n");
   EXPECT_EQ(table(1, 1), 3);
-  expect_contains(message_of([&] { (void)table(2, 0); }), "it has 2 rows and 2 columns");
+  expect_contains(message_of([&] { (void)table(2, 0); }), "CSV has 2 rows and 2 columns");
   EXPECT_THROW((void)table(1, 2), hmps::InputError) << "the column counted from 1";
 }
 
