@@ -118,9 +118,10 @@ class ControlRegion {
     for (const Index i : particles_) f.set(i, Vector<double, D>(Vector<double, D>::Zero()));
   }
 
-  /// Moves the region's particles to their prescribed positions at time `t` (s), with the velocity of the motion
-  /// (central difference over 2 microseconds). Use it to start a run in the middle of a motion. Throws `InputError` for
-  /// views of the wrong size and a time that is not finite, and `StateError` for a motion that is not finite at `t`.
+  /// Moves the region's particles to their prescribed positions at time `t` (s), with the velocity of the motion: that
+  /// of its `rate(t)`, or, for a motion without a rate, such as a `std::function`, the central difference over 2
+  /// microseconds. Use it to start a run in the middle of a motion. Throws `InputError` for views of the wrong size and
+  /// a time that is not finite, and `StateError` for a motion that is not finite at `t`.
   template <class X, class V>
   void place(const VectorView<X, D>& x, const VectorView<V, D>& v, double t) const {
     require_size(x, reference_.size(), "positions");
@@ -128,16 +129,13 @@ class ControlRegion {
     require_apart(x, "positions", reference_, "reference positions of a control region");
     detail::require(detail::is_finite(t), "hmps: a control region is placed at the time ", t,
                     " s; give finite seconds");
-    constexpr double h = 1e-6;
     const auto now = motion_(t);
     detail::require_rigid(now, t);
-    const auto before = motion_(t - h);
-    const auto after = motion_(t + h);
+    const auto velocity_of = velocities(now, t);
     for (const Index i : particles_) {
       const Vector<double, D> reference = reference_[i].template cast<double>();
       const Vector<double, D> place = now(reference);
-      const Vector<double, D> rate =
-          (Vector<double, D>(after(reference)) - Vector<double, D>(before(reference))) / (2 * h);
+      const Vector<double, D> rate = velocity_of(reference);
       if (!detail::all_finite(place) || !detail::all_finite(rate))
         throw StateError(detail::message("hmps: a control region puts particle ", i, " at (", place.transpose(),
                                          ") with the velocity (", rate.transpose(), ") m/s at ", t,
@@ -148,6 +146,22 @@ class ControlRegion {
   }
 
  private:
+  /// The velocity in m/s of the motion at `t`, where it is `now`, as a function of the reference position.
+  template <class Map>
+  [[nodiscard]] auto velocities([[maybe_unused]] const Map& now, double t) const {
+    if constexpr (detail::RatedMotion<M, D>) {
+      return [now, rate = motion_.rate(t)](const Vector<double, D>& reference) {
+        return Vector<double, D>(velocity(now, rate, reference));
+      };
+    } else {
+      constexpr double h = 1e-6;
+      return [before = motion_(t - h), after = motion_(t + h)](const Vector<double, D>& reference) {
+        return Vector<double, D>((Vector<double, D>(after(reference)) - Vector<double, D>(before(reference))) /
+                                 (2 * h));
+      };
+    }
+  }
+
   std::vector<Index> particles_;
   VectorView<const S, D> reference_;
   M motion_;

@@ -103,7 +103,9 @@ template <class S, int D>
   return {pose.rotation.transpose(), pose.pivot + pose.translation, -pose.translation};
 }
 
-/// The rate of change of a pose.
+/// The rate of change of a pose. `ControlRegion::prescribe` does not need it, because it moves particles from where
+/// they are to where the pose puts them; `ControlRegion::place` does, and so do time integrations of your own that set
+/// velocities, such as velocity Verlet.
 template <class S, int D>
 struct PoseRate {
   /// rad/s: one number in 2D, a vector in 3D.

@@ -17,16 +17,26 @@ namespace hmps::inline HMPS_ABI {
 
 /// A motion in `D` dimensions: `motion(t)(X)` is the position at time `t` (s) of the material point with reference
 /// position `X` (m), both in double. Models: anything that returns a `Pose`; a lambda that returns a lambda, which need
-/// not be rigid.
+/// not be rigid. A motion that returns a `Pose` may have `rate(t)`, its `PoseRate`: `ControlRegion::place` then takes
+/// the velocities from it.
 template <class M, int D>
 concept Motion = requires(const M& motion, double t, const Vector<double, D>& reference) {
   { motion(t)(reference) } -> std::convertible_to<Vector<double, D>>;
 };
 
+namespace detail {
+/// A motion that knows the velocities of its points.
+template <class M, int D>
+concept RatedMotion = requires(const M& motion, double t, const Vector<double, D>& reference) {
+  { velocity(motion(t), motion.rate(t), reference) } -> std::convertible_to<Vector<double, D>>;
+};
+}  // namespace detail
+
 /// No motion.
 template <int D>
 struct Fixed {
   [[nodiscard]] Pose<double, D> operator()(double) const { return {}; }
+  [[nodiscard]] PoseRate<double, D> rate(double) const { return {}; }
 };
 
 /// Translation along a track in metres.
@@ -37,6 +47,12 @@ struct Translation {
     Pose<double, D> pose;
     pose.translation = translation.value(t);
     return pose;
+  }
+  /// The rate of change of the pose at `t`.
+  [[nodiscard]] PoseRate<double, D> rate(double t) const {
+    PoseRate<double, D> rate;
+    rate.linear = translation.rate(t);
+    return rate;
   }
 };
 
@@ -49,11 +65,22 @@ struct Turn {
   /// A template, so that it is compiled only in programs that call it.
   template <std::same_as<double> T = double>
   [[nodiscard]] Pose<T, 3> operator()(std::type_identity_t<T> t) const {
+    return {rotation<T>(Vector<T, 3>(angle.value(t) * unit_axis<T>())), pivot, Vector<T, 3>::Zero()};
+  }
+  /// The rate of change of the pose at `t`.
+  template <std::same_as<double> T = double>
+  [[nodiscard]] PoseRate<T, 3> rate(std::type_identity_t<T> t) const {
+    return {angle.rate(t) * unit_axis<T>(), Vector<T, 3>::Zero()};
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] Vector<T, 3> unit_axis() const {
     const Vector<T, 3> about = detail::measurable<T, 3>(axis);
     const T length = about.norm();
     detail::require(detail::is_finite(length) && length > 0, "hmps: the axis of a turn is (", axis.transpose(),
                     "); give a direction of finite, nonzero length");
-    return {rotation<T>(Vector<T, 3>(angle.value(t) * about.normalized())), pivot, Vector<T, 3>::Zero()};
+    return about.normalized();
   }
 };
 

@@ -131,6 +131,25 @@ TYPED_TEST(ControlRegionTest, PlacesARunThatStartsWithinTheMotion) {
   EXPECT_EQ(this->positions[0], this->at_rest[0]);
 }
 
+// A motion that is over within the 2 microseconds of a difference.
+TYPED_TEST(ControlRegionTest, PlacesWithTheRateOfAMotionThatHasOne) {
+  using S = typename TestFixture::Scalar;
+  constexpr int D = TestFixture::dimension;
+  const auto close_to = [](const auto& found, double expected) {
+    return std::abs(static_cast<double>(found) - expected) <= 4 * std::numeric_limits<S>::epsilon() * expected;
+  };
+  const auto x = hmps::vectors(this->positions), v = hmps::vectors(this->velocities);
+  Vector<double, D> far = Vector<double, D>::Zero();
+  far[1] = 3e-7;
+  const hmps::Translation<D> quick{{{0, Vector<double, D>::Zero()}, {1e-7, far}}};
+  ControlRegion({1, 5}, hmps::vectors(std::as_const(this->at_rest)), quick).place(x, v, 5e-8);
+  EXPECT_EQ(v(1, 0), 0);
+  EXPECT_TRUE(close_to(v(1, 1), 1.5 * 3)) << v(1, 1);  // the steepest slope of the cubic
+  EXPECT_EQ(v(5, 1), v(1, 1));
+  ControlRegion({2}, hmps::vectors(std::as_const(this->at_rest)), hmps::Fixed<D>()).place(x, v, 5e-8);
+  EXPECT_EQ(v[2].norm(), 0);
+}
+
 TYPED_TEST(ControlRegionTest, TakesMotionsThatAreNotRigid) {
   using S = typename TestFixture::Scalar;
   constexpr int D = TestFixture::dimension;

@@ -46,6 +46,11 @@ TEST(RigidMotion, RateIsThatOfItsPoints) {
     // The error is of the order of h^2 times the third derivative, about 1e2.
     EXPECT_LE((velocity(motion(t), motion.rate(t), x) - (motion(t + h)(x) - motion(t - h)(x)) / (2 * h)).norm(), 1e-7);
     const V2 y(1, -2);
+    const hmps::Turn hinge{.pivot = V(1, 0, 0), .axis = V(3, 0, 4), .angle = plane.turn};
+    EXPECT_LE((velocity(hinge(t), hinge.rate(t), x) - (hinge(t + h)(x) - hinge(t - h)(x)) / (2 * h)).norm(), 1e-7);
+    const hmps::Translation<3> along{motion.translation};
+    EXPECT_LE((velocity(along(t), along.rate(t), x) - motion.translation.rate(t)).norm(), 1e-15);
+    EXPECT_EQ(velocity(hmps::Fixed<3>()(t), hmps::Fixed<3>().rate(t), x), V(V::Zero()));
     EXPECT_LE((velocity(plane(t), plane.rate(t), y) - (plane(t + h)(y) - plane(t - h)(y)) / (2 * h)).norm(), 1e-7);
   }
 }
