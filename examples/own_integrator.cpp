@@ -35,7 +35,7 @@ int main() {
   const auto energy = [&] { return hmps::kinetic_energy(v, rho, volume) + force.energy(x, volume).total(); };
   const auto largest_error = [&](const auto& scheme, double dt) {  // relative error of the energy over 0.02 s
     for (std::size_t i = 0; i < reference.size(); ++i) position[i] = reference[i].cwiseProduct(Vector(1.1, 0.95, 0.95));
-    std::fill(velocity.begin(), velocity.end(), Vector::Zero());
+    hmps::set_zero(v);
     force(x, f);
     const double start = energy();
     double largest = 0;

@@ -42,7 +42,7 @@ int main() {
     std::vector<Vector> position = reference, velocity(reference.size(), Vector::Zero()), load = velocity;
     for (const hmps::Index i : all) velocity[i][2] = -speed;
     for (double t = 0; t < 4e-3; t += dt) {
-      for (Vector& f : load) f.setZero();
+      hmps::set_zero(hmps::vectors(load));
       const auto report = contact.add(hmps::vectors(position), hmps::vectors(velocity), hmps::vectors(load), dt);
       deepest = std::fmax(deepest, report.penetration);
       Vector mean = Vector::Zero();  // force density of the tile, which is rigid

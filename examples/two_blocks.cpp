@@ -54,7 +54,7 @@ int main() {
     force(x, v, f);                     // what holds the bodies together and their weight, N/m3
     hmps::kick(v, f, rho, dt);
     pulled.prescribe(x, v, t, dt);  // forced displacement, which contact has to see
-    for (Vector& density : load) density.setZero();
+    hmps::set_zero(f);
     contact.add(x, v, F, f, dt);  // adds what they do to each other
     pulled.unload(f);             // what is pulled follows no force
     hmps::kick(v, f, rho, dt);

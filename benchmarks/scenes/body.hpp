@@ -35,9 +35,7 @@ struct Body {
   [[nodiscard]] auto v() { return hmps::vectors(velocity); }
   [[nodiscard]] auto f() { return hmps::vectors(load); }
   [[nodiscard]] auto F() { return hmps::matrices(gradient); }
-  void unload() {
-    for (auto& density : load) density.setZero();
-  }
+  void unload() { hmps::set_zero(f()); }
 };
 
 }  // namespace scenes

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <hmps/hmps.hpp>
 #include <optional>
@@ -123,7 +122,7 @@ struct PressedBlock {
   void place() {
     for (const auto& where : parts.places) position.push_back(where.template cast<S>());
   }
-  void unload() { std::fill(load.begin(), load.end(), Vector::Zero()); }
+  void unload() { hmps::set_zero(f()); }
   /// Lets the plate sink for a step under its pressure and the force of the block.
   void sink() {
     const double volume = settings.spacing * settings.spacing * settings.spacing;

@@ -33,8 +33,8 @@ bool alternates(Sheet<S>& scene, double dt) {
   const auto start = body.position;
   const auto restore = [&] {
     body.position = start;
-    for (auto& v : body.velocity) v.setZero();
-    for (auto& carry : body.carry) carry.setZero();
+    hmps::set_zero(body.v());
+    hmps::set_zero(hmps::vectors(body.carry));
   };
   restore();
   scene(body.x(), body.v(), body.f());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shortest scene, from which to start one of your own: a bar of soft tissue, clamped at one end, sags under its
 // weight.
-#include <algorithm>
 #include <cmath>
 #include <hmps/hmps.hpp>
 #include <vector>
@@ -38,7 +37,7 @@ Outcome sag_once(const Settings& settings) {
   const std::vector<Vector>& reference = bar.fit.positions;
   auto position = reference, velocity = reference, load = reference;
   const auto x = hmps::vectors(position), v = hmps::vectors(velocity), f = hmps::vectors(load);
-  const auto rest = [&] { std::fill(velocity.begin(), velocity.end(), Vector::Zero()); };
+  const auto rest = [&] { hmps::set_zero(v); };
   const auto moves = [&](std::size_t i) { return i >= bar.held; };
   rest();
 

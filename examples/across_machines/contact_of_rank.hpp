@@ -152,7 +152,7 @@ class ContactOfRank {
   /// particle.
   void add(std::vector<Vector>& f, double t, double dt) {
     if (!contact_) return;
-    std::fill(f_.begin(), f_.end(), Vector::Zero());
+    hmps::set_zero(hmps::vectors(f_));
     const auto report = contact_->add(hmps::vectors(std::as_const(x_)), hmps::vectors(std::as_const(v_)),
                                       hmps::matrices(std::as_const(F_)), hmps::vectors(f_), dt);
     late_ = late_before_ + report.late;

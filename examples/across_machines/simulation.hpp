@@ -131,7 +131,7 @@ class Simulation {
     lap(times_.surveys);
     contact_.gather(state_.x, state_.v, F_);
     lap(times_.messages);
-    std::fill(f_.begin(), f_.end(), Vector::Zero());
+    hmps::set_zero(hmps::vectors(f_));
     contact_.add(f_, t, dt_);
     lap(times_.contact);
     for (const Region& region : regions_) region.unload(f);
@@ -221,7 +221,7 @@ inline void run_plainly(const Scene& scene, double dt, std::size_t first, std::s
     force(x, v, f);
     hmps::kick(v, f, rho, dt);
     for (const Region& region : regions) region.prescribe(x, v, t, dt);
-    std::fill(load.begin(), load.end(), Vector::Zero());
+    hmps::set_zero(f);
     contact.check(contact.add(x, v, hmps::matrices(F), f, dt), t);
     for (const Region& region : regions) region.unload(f);
     hmps::kick(v, f, rho, dt);

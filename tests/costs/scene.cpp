@@ -76,7 +76,7 @@ void halves(int steps, double gap, bool meet) {
     for (int step = 0; step < steps; ++step) {
       force(x, v, f);
       hmps::kick(v, f, density, time_step);
-      for (auto& load : body.load) load.setZero();
+      hmps::set_zero(f);
       contacts += contact.add(x, v, F, f, time_step).contacts;
       hmps::kick(v, f, density, time_step);
       hmps::drift(x, v, time_step);

@@ -10,6 +10,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view_checks.hpp"
 #include "hmps/core/view_types.hpp"
@@ -188,6 +189,17 @@ template <class R, class Class, class Member>
   const auto view = detail::member(std::span(range), pointer);
   using T = std::remove_pointer_t<decltype(view.base(0))>;
   return ScalarView<T>(view);
+}
+
+/// Sets all numbers of `view` to zero: velocities at the start, or force densities before `MetaballContact::add`.
+/// Throws `InputError` for an invalid view (`require_view`).
+template <class T, int N, Executor E = Serial>
+void set_zero(const View<T, N>& view, const E& execute = {}) {
+  static_assert(!std::is_const_v<T>, "hmps: set_zero writes; give it a writable view");
+  require_view(view, "numbers to be set to zero");
+  execute(view.size(), [&](std::size_t i) {
+    for (int c = 0; c < N; ++c) view(i, c) = T(0);
+  });
 }
 
 }  // namespace hmps::inline HMPS_ABI

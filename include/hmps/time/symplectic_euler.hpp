@@ -19,7 +19,7 @@
 /// \paper{2, 3, 4}, as functions to compose:
 ///
 ///     force(x, v, f);               kick(v, f, rho, dt);     // v* of Eq. (2)
-///     std::ranges::fill(load, Vector<double, 3>::Zero());  // the array behind f
+///     set_zero(f);
 ///     contact.add(x, v, F, f, dt);  kick(v, f, rho, dt);     // Eq. (3)
 ///     drift(x, v, dt);                                       // Eq. (4)
 ///

@@ -80,9 +80,7 @@ struct Scene {
     }
   }
 
-  void rest() {
-    for (Point& force : f) force.setZero();
-  }
+  void rest() { hmps::set_zero(hmps::vectors(f)); }
   template <class Contact>
   auto apply(Contact& contact, double dt, const Loops& execute = {}) {
     rest();

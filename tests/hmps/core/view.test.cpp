@@ -177,6 +177,32 @@ std::string error_of(Call&& call) {
 }
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+TEST(Views, SetZeroWritesTheirNumbersAndNothingElse) {
+  std::vector<Particle<float>> particles(5);
+  for (auto& particle : particles) {
+    particle.id = 7;
+    particle.position = {1, 2, 3};
+    particle.velocity[0] = 4;
+  }
+  hmps::set_zero(hmps::vectors(particles, &Particle<float>::position).part(1, 3));
+  for (std::size_t i = 0; i < 5; ++i) {
+    const bool inside = 1 <= i && i <= 3;
+    EXPECT_EQ(particles[i].position, (inside ? std::array<float, 3>{} : std::array<float, 3>{1, 2, 3})) << i;
+    EXPECT_EQ(particles[i].id, 7) << i;
+    EXPECT_EQ(particles[i].velocity[0], 4) << i;
+  }
+
+  std::vector<double> numbers(7, 4);
+  std::vector<Eigen::Matrix2d> tensors(2, Eigen::Matrix2d::Ones());
+  hmps::set_zero(hmps::scalars(numbers), [](std::size_t n, const auto& body) {
+    for (std::size_t i = n; i-- > 0;) body(i);
+  });
+  hmps::set_zero(hmps::matrices(tensors));
+  EXPECT_EQ(numbers, std::vector<double>(7, 0));
+  EXPECT_EQ(tensors[0].norm() + tensors[1].norm(), 0);
+  EXPECT_NO_THROW(hmps::set_zero(hmps::VectorView<double, 3>()));
+}
+
 TEST(Views, ErrorsNameTheParticleAndTheValue) {
   std::vector<double> x(3), y(2);
   std::string text = error_of([&] { (void)hmps::vectors(x, y); });
