@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <hmps/contact/contact.hpp>
+#include <hmps/core/math.hpp>
 #include <hmps/core/view.hpp>
 
 #include "../common/error.hpp"
@@ -28,13 +29,6 @@ using Contact = hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::Cor
 inline constexpr const char* body_name[] = {"plate", "block"};
 inline const hmps::ContactSettings contact_settings{
     .spacing = l0, .density = rho, .friction = mu, .stiffness = hmps::PenaltyStiffness::ratio(0.05)};
-
-/// An upper bound of the largest singular value of F (Wolkowicz and Styan 1980).
-[[nodiscard]] inline double stretch_of(const Gradient& F) {
-  const hmps::Matrix<double, 3> wide = F.cast<double>(), C = wide.transpose() * wide;
-  const double mean = C.trace() / 3;
-  return std::sqrt(mean + std::sqrt(2 * std::max(0., C.squaredNorm() / 3 - mean * mean)));
-}
 
 /// Declares both bodies, of which `surface` are the particles, numbered as `number(k)` for the k-th of them.
 template <class Slave, class Number, class Held>
@@ -87,7 +81,7 @@ class ContactOfRank {
     double moved = 0, stretch = 0;
     for (std::size_t k = 0; k < own_.size(); ++k) {
       moved = std::max(moved, (x[own_[k]] - surveyed_[k]).squaredNorm());
-      stretch = std::max(stretch, stretch_of(F[own_[k]]));
+      stretch = std::max(stretch, hmps::stretch_bound<double, 3>(F[own_[k]].cast<double>()));
     }
     return {std::sqrt(moved), stretch / stretch_};
   }
@@ -110,7 +104,7 @@ class ContactOfRank {
     std::array<double, 1> stretch{1};
     for (std::size_t k = 0; k < own_.size(); ++k) {
       surveyed_[k] = x[own_[k]];
-      stretch[0] = std::max(stretch[0], stretch_of(F[own_[k]]));
+      stretch[0] = std::max(stretch[0], hmps::stretch_bound<double, 3>(F[own_[k]].cast<double>()));
     }
     largest(ranks_, stretch);
     stretch_ = stretch[0];

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -73,6 +75,24 @@ TYPED_TEST(MathOf, RightCauchyGreenIsSymmetricAndIgnoresRotation) {
     turned.row(1) = F.row(0);
     EXPECT_LT((right_cauchy_green(turned) - C).norm(), 10 * this->epsilon);
   }
+}
+
+TYPED_TEST(MathOf, StretchBoundIsAboveTheLargestStretchAndSharpWhereItCounts) {
+  using T = typename TypeParam::Scalar;
+  constexpr int D = TypeParam::D;
+  for (int i = 0; i < 50; ++i) {
+    const Matrix<T, D> F = this->random();
+    const T largest = F.jacobiSvd().singularValues()[0], bound = stretch_bound<T, D>(F);
+    EXPECT_GE(bound, largest - 10 * this->epsilon);
+    EXPECT_LE(bound, std::sqrt(T(4) / T(3)) * largest + 10 * this->epsilon);  // two equal stretches and none
+    if (D == 2) {
+      EXPECT_NEAR(bound, largest, 10 * this->epsilon);
+    }
+  }
+  EXPECT_EQ((stretch_bound<T, D>(T(2) * Matrix<T, D>::Identity())), T(2));
+  Matrix<T, D> one = Matrix<T, D>::Zero();
+  one(0, 1) = T(3);
+  EXPECT_NEAR((stretch_bound<T, D>(one)), T(3), 10 * this->epsilon);  // D = 3 too: mean 3, deviation sqrt(18)
 }
 
 TYPED_TEST(MathOf, ScalarHelpers) {

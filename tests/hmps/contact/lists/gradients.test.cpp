@@ -20,6 +20,7 @@ TEST(StretchBound, IsAboveTheLargestSingularValueAndSharpWhereItCounts) {
     hmps::Vector<double, 3> q(1, 2, 3);
     for (int k = 0; k < 200; ++k) q = (F.transpose() * (F * q)).normalized();
     EXPECT_GE((hmps::detail::stretch_bound<double, 3>(F)), (F * q).norm() * (1 - 1e-12));
+    EXPECT_EQ((hmps::detail::stretch_bound<double, 3>(F)), (hmps::stretch_bound<double, 3>(F)));
   }
   EXPECT_DOUBLE_EQ((hmps::detail::stretch_bound<double, 3>(2 * hmps::Matrix<double, 3>::Identity())), 2);
   hmps::Matrix<double, 2> shear = hmps::Matrix<double, 2>::Identity();
