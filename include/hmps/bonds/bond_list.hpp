@@ -44,9 +44,10 @@ class BondList : public Blocks<K, D> {
   using Slots = detail::SlotArrays<K, N>;  ///< storage for the numbers that bonds read from neighbours
 
   /// Bonds all pairs of `reference` (m) within the effective radius for which `bonded(i, j)` holds; the predicate must
-  /// be symmetric. Throws `InputError` for coincident particles, positions that are not finite, neighbourhoods that do
-  /// not span space, a spacing that does not fit the cloud (another unit, or far too large or small), a predicate that
-  /// is not symmetric (unless particles may be unbonded), and a weight that is negative or not finite.
+  /// be symmetric. Throws `InputError` for particles closer than a thousandth of a spacing, positions that are not
+  /// finite, neighbourhoods that do not span space, a spacing that does not fit the cloud (another unit, or far too
+  /// large or small), a predicate that is not symmetric (unless particles may be unbonded), and a weight that is
+  /// negative or not finite.
   template <class T, class Bonded = EveryBond, class Weight = PaperWeight>
   requires(!detail::IsScalarView<std::remove_cvref_t<Bonded>>::value) explicit BondList(
       const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {}, Weight&& weight = {})
@@ -173,6 +174,8 @@ class BondList : public Blocks<K, D> {
 
  private:
   static constexpr std::size_t half_width = width / 2;
+  /// Particles closer than this many spacings are duplicates that differ by rounding.
+  static constexpr double closest = 1e-3;
 
   template <class T, class Bonded, class Weight>
   void find_bonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded& bonded, Weight& weight) {
@@ -189,8 +192,12 @@ class BondList : public Blocks<K, D> {
           for (const Index j : list[i]) {
             if (!detail::are_bonded(bonded, std::size_t{i}, std::size_t{j}, settings.unbonded)) continue;
             const Vector<double, D> r0 = this->reference(j) - this->reference(i);
-            const double w = weight(std::min(r0.norm(), radius), radius);
-            detail::require_weight(w, r0.norm());
+            const double distance = r0.norm();
+            detail::require(distance >= closest * settings.spacing, "hmps: particles ", i, " and ", j, " are only ",
+                            distance, " m apart, ", distance / settings.spacing,
+                            " spacings, as if one body had been filled twice; remove one of them");
+            const double w = weight(std::min(distance, radius), radius);
+            detail::require_weight(w, distance);
             if (w > 0) keep(j, r0, w * volume_share(j));
           }
         },
@@ -207,8 +214,8 @@ class BondList : public Blocks<K, D> {
   }
 
   /// Stores the bonds for which `visit(i, keep)` calls `keep(j, r0, w)`; none may be longer than `reach` (m). `spacing`
-  /// (m) is that of the particles. Particles
-  /// without bonds are an error unless they may be `unbonded`.
+  /// (m) is that of the particles. Particles without bonds are an error unless they may be `unbonded`. The standard
+  /// neighbourhood is the one with the largest sum of w r0^2, to which a neighbour that is too close adds little.
   template <class Visit>
   void set_bonds(double reach, double spacing, Visit&& visit, bool unbonded = false) {
     places_ = detail::Places<K, D>(*this, reach);
@@ -228,7 +235,7 @@ class BondList : public Blocks<K, D> {
           if (j > i) joined.join(i, j);
         });
         this->set_shape(i, shape.inverse(i, unbonded), shape.asymmetry, shape.A.trace());
-        if (shape.weight > fullest.weight) fullest = shape;
+        if (shape.A.trace() > fullest.A.trace()) fullest = shape;
       }
       runs_.add(halves);
     }

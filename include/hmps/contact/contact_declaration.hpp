@@ -258,7 +258,7 @@ class MetaballContact {
   [[nodiscard]] const PenaltyStiffness& stiffness(std::size_t pair) const {
     return own_[pair].stiffness ? *own_[pair].stiffness : settings_.stiffness;
   }
-  [[nodiscard]] S penalty(const PenaltyStiffness& stiffness, double dt) const;
+  [[nodiscard]] S penalty(std::size_t pair, double dt) const;
   template <PerParticle Rho>
   void require_heavy(const Rho& rho, double dt) const;
   void set_laws(double dt);

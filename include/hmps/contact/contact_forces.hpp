@@ -8,14 +8,16 @@
 
 namespace hmps::inline HMPS_ABI {
 
-/// k in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it and, for `LinearPenalty`, if
-/// it is below 1 N/m4 and thus meant as a ratio. A law of your own may use its coefficient in any way.
+/// k of `pair` in N/m4. Throws `InputError` if `S` cannot represent it or a result computed from it and, for
+/// `LinearPenalty`, if it is below 1 N/m4 and thus meant as a ratio. A law of your own may use its coefficient in any
+/// way.
 template <class S, int D, class Kernel, class Friction, class Penalty>
-S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(const PenaltyStiffness& stiffness, double dt) const {
-  const double k = is_linear ? stiffness.at(settings_.density, dt) : stiffness.coefficient(settings_.density, dt);
+S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(std::size_t pair, double dt) const {
+  const PenaltyStiffness& own = stiffness(pair);
+  const double k = is_linear ? own.at(settings_.density, dt) : own.coefficient(settings_.density, dt);
   detail::require(!is_linear || k >= 1, "hmps: the penalty coefficient k is ", k,
                   " N/m4, with which walls do not push; to give the ratio k~, use PenaltyStiffness::ratio");
-  const double largest = k * std::max({1., settings_.spacing, damping(1) > 0 ? settings_.density : 0.});
+  const double largest = k * std::max({1., settings_.spacing, damping(friction(pair)) > 0 ? settings_.density : 0.});
   detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
                       largest <= static_cast<double>(std::numeric_limits<S>::max()),
                   "hmps: the penalty coefficient k is ", k, " N/m4 at a step of ", dt,
@@ -52,9 +54,10 @@ template <class S, int D, class Kernel, class Friction, class Penalty>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::set_laws(double dt) {
   laws_.resize(own_.size());
   for (std::size_t p = 0; p < own_.size(); ++p) {
-    const S k = penalty(stiffness(p), dt);
-    laws_[p] = {k, static_cast<S>(2 * damping(friction(p))) * std::sqrt(k * static_cast<S>(settings_.density)),
-                static_cast<S>(detail::finite_friction(friction(p))), 0};
+    const S k = penalty(p, dt), fraction = static_cast<S>(2 * damping(friction(p)));
+    // Without damping, k rho may overflow.
+    const S critical = fraction > S(0) ? std::sqrt(k * static_cast<S>(settings_.density)) : S(0);
+    laws_[p] = {k, fraction * critical, static_cast<S>(detail::finite_friction(friction(p))), 0};
   }
 }
 

@@ -89,7 +89,7 @@ class Blocks : public detail::Anchored {
   [[nodiscard]] double far_apart() const { return far_apart_; }
 
   /// Particle number density n^0 and lambda (m2) of a particle inside the body (\paper{21}). `LatticeBonds` takes those
-  /// of the full lattice, `BondList` those of the particle with the largest sum of weights.
+  /// of the full lattice, `BondList` those of the particle with the largest sum of w r0^2.
   [[nodiscard]] double standard_density() const { return standard_density_; }
   [[nodiscard]] double standard_lambda() const { return standard_lambda_; }
 

@@ -166,4 +166,21 @@ TEST(BondList, RefusesARadiusInPerCent) {
                hmps::InputError);
 }
 
+// Two fills of one body, one of which was moved there and back: earlier, their step was 1e-11 s, without an error.
+TEST(BondList, RejectsDuplicatesThatDifferByRounding) {
+  constexpr double l0 = scenes::Scene<3>::spacing;
+  auto points = scenes::box<3>({5, 4, 4});
+  const std::size_t n = points.size();
+  points.push_back(points[7] + hmps::Vector<double, 3>(1e-15 * l0, 0, 0));
+  if (points.back() == points[7]) points.back()[0] = std::nextafter(points[7][0], 1.0);
+  for (const double away : {0.0, 1e-9, 0.9e-3}) {
+    points.back()[0] += away * l0;
+    const std::string text = error_of([&] { (void)hmps::BondList<double, 3>(hmps::vectors(points), {.spacing = l0}); });
+    EXPECT_TRUE(has(text, "particles 7 and " + std::to_string(n) + " are only ")) << text;
+  }
+  points.back()[0] = points[7][0] + 0.2 * l0;
+  const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+  EXPECT_EQ(bonds.size(), n + 1);
+}
+
 }  // namespace bond_list_test

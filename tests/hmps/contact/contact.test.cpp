@@ -219,6 +219,22 @@ TEST(Friction, IsTheCoefficientTimesTheNormalForceWhereItSlides) {
   EXPECT_NEAR(drag[1] - drag[0], 0.2, 0.02);
 }
 
+// Earlier, the force was zero where density times k exceeds the range of float, although there is no damping.
+TEST(Damping, OfZeroNeedsNoProductOfDensityAndStiffness) {
+  bodies::Pile<float, 3> pile(0.9F);
+  const auto lift = [&](double scale) {
+    MetaballContact<float, 3> contact(
+        {.spacing = 1e-3, .density = 1000 * scale, .stiffness = hmps::PenaltyStiffness::fixed(3e12 * scale)});
+    pile.declare(contact);
+    pile.apply(contact, dt);
+    double up = 0;
+    for (const Index i : pile.block.all) up += static_cast<double>(pile.f[i][2]);
+    return up / scale;
+  };
+  EXPECT_GT(lift(1), 0);
+  EXPECT_NEAR(lift(1e13), lift(1), 1e-5 * lift(1));
+}
+
 TEST(Damping, OpposesTheClosingSpeedAndIsOffByDefault) {
   bodies::Pile<double, 3> pile(0.9);
   const auto lift = [&](double damping, double speed) {

@@ -95,4 +95,24 @@ TEST(Viscous, RefusesADensityOfZeroButNotAViscosityOfZero) {
   EXPECT_TRUE(has(error_of(make), "viscosity of particle 5 is -0.001 m2/s"));
 }
 
+// Earlier, one particle that was too close to another changed the force of the whole body by a factor of 2.5 and more.
+TEST(Viscous, DoesNotChangeWithAParticleThatIsTooCloseElsewhere) {
+  constexpr double l0 = scenes::Scene<3>::spacing;
+  auto points = scenes::box<3>({9, 5, 5});
+  const auto force_in_the_middle = [&] {
+    const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+    auto force = hmps::internal_force(bonds, hmps::viscous(1000, 0.02));
+    std::vector<hmps::Vector<double, 3>> v(points.size(), hmps::Vector<double, 3>::Zero()), f = v;
+    v[points.size() / 2][0] = 1;  // in the middle
+    force(hmps::vectors(points), hmps::vectors(v), hmps::vectors(f));
+    return f[points.size() / 2][0];
+  };
+  const double right = force_in_the_middle();
+  for (const double away : {0.3, 0.1, 0.01}) {
+    points.push_back(points[0] - away * hmps::Vector<double, 3>::Constant(l0 / std::sqrt(3.0)));
+    EXPECT_NEAR(force_in_the_middle(), right, 0.01 * std::abs(right)) << away;
+    points.pop_back();
+  }
+}
+
 }  // namespace viscous_test
