@@ -123,13 +123,14 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<
   detail::require(report.lost_in < lists_.organs().organs().size(), "hmps: the report given to check names organ ",
                   report.lost_in, ", but this contact has ", lists_.organs().organs().size(),
                   " organs; give the report of its own latest call");
-  throw StateError(
-      detail::message("hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
-                      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
-                      report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
-                      " spacings) deep in it or has passed through it",
-                      report.deep > 1 ? detail::message("; walls have lost ", report.deep - 1, " more") : "",
-                      "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion"));
+  throw StateError(detail::message(
+      "hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
+      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
+      report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
+      " spacings) deep in it or has passed through it",
+      report.deep > 1 ? detail::message("; walls have lost ", report.deep - 1, " more") : "",
+      "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion, and give all "
+      "organs the spacing of the contact"));
 }
 
 /// Evaluates all rows, lists those that touch, and reports slaves that walls have lost.
