@@ -147,10 +147,9 @@ template <class T, int D>
 /// An upper bound of the largest singular value of the deformation gradient `F`, the largest stretch of a line in the
 /// particle: the square root of the mean plus sqrt(D - 1) standard deviations of the eigenvalues of F^T F (Wolkowicz
 /// and Styan 1980). Exact in 2D and for equal stretches; in 3D up to 16 % above. It needs no eigenvalues, unlike
-/// `principal_stretches`. For numbers; contact evaluates the same bound for packs of lanes.
+/// `principal_stretches`.
 template <class T, int D>
-requires std::is_floating_point_v<T>
-[[nodiscard]] T stretch_bound(const Matrix<T, D>& F) {
+[[nodiscard]] HMPS_INLINE T stretch_bound(const Matrix<T, D>& F) {
   using std::sqrt;
   Matrix<T, D> C = right_cauchy_green<T, D>(F);
   const T mean = trace<T, D>(C) * T(1. / D);
