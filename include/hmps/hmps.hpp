@@ -158,6 +158,7 @@
 #include "hmps/shapes/mesh_distance.hpp"
 #include "hmps/shapes/nearest_on_triangle.hpp"
 #include "hmps/shapes/obj_file.hpp"
+#include "hmps/shapes/polygon.hpp"
 #include "hmps/shapes/pseudonormals.hpp"
 #include "hmps/shapes/redistanced.hpp"
 #include "hmps/shapes/stl_file.hpp"

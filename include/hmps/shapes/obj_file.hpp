@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/text_file.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/shapes/polygon.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/surface_text.hpp"
 
@@ -54,6 +57,7 @@ class ObjParser {
         place_.line = ahead.line;
         place_.fail("a face names vertex ", ahead.number, " but ", mesh_.vertices.size(), " vertices are in the file");
       }
+    for (const Face& face : faces_) split(face);
   }
 
  private:
@@ -61,6 +65,10 @@ class ObjParser {
   struct Ahead {
     std::int64_t number;
     std::size_t line;
+  };
+  /// A face with more than three corners: the first of its triangles, and how many they are.
+  struct Face {
+    std::size_t first, count, line;
   };
 
   void take(std::string_view line) {
@@ -87,8 +95,37 @@ class ObjParser {
       polygon_.push_back(static_cast<Index>(number > 0 ? number - 1 : count + number));
     }
     if (polygon_.size() < 3) place_.fail("a face has ", polygon_.size(), " corners; it needs at least three");
+    if (polygon_.size() > 3) faces_.push_back({mesh_.triangles.size(), polygon_.size() - 2, place_.line});
+    // A fan, until all vertices are known.
     for (std::size_t c = 2; c < polygon_.size(); ++c)
       mesh_.triangles.push_back({polygon_[0], polygon_[c - 1], polygon_[c]});
+  }
+
+  /// Replaces the fan of a face where it is not the face.
+  void split(const Face& face) {
+    const auto fan = mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(face.first);
+    polygon_.assign({(*fan)[0], (*fan)[1]});
+    for (std::size_t k = 0; k < face.count; ++k) polygon_.push_back(fan[static_cast<std::ptrdiff_t>(k)][2]);
+    std::vector<Vector<double, 3>> corners;
+    double largest = 0;
+    for (const Index corner : polygon_) {
+      corners.push_back(mesh_.vertices[corner].template cast<double>());
+      largest = std::max(largest, corners.back().cwiseAbs().maxCoeff());
+    }
+    const PolygonSplit parts(std::move(corners), 4 * static_cast<double>(std::numeric_limits<S>::epsilon()) * largest);
+    place_.line = face.line;
+    if (parts.fault() == PolygonFault::no_area)
+      place_.fail("a face of ", polygon_.size(),
+                  " corners encloses no area: they lie on one line, or its border crosses itself; delete the face, or "
+                  "triangulate it in a mesh editor");
+    if (parts.fault() == PolygonFault::crosses_itself)
+      place_.fail("the border of a face of ", polygon_.size(),
+                  " corners crosses itself or runs around twice; correct the order of its corners, or triangulate it "
+                  "in a mesh editor");
+    for (std::size_t k = 0; k < face.count; ++k) {
+      const auto& [a, b, c] = parts.triangles()[k];
+      fan[static_cast<std::ptrdiff_t>(k)] = {polygon_[a], polygon_[b], polygon_[c]};
+    }
   }
 
   SurfaceMesh<S>& mesh_;
@@ -96,13 +133,16 @@ class ObjParser {
   TextPlace place_;
   std::vector<Index> polygon_;
   std::vector<Ahead> ahead_;
+  std::vector<Face> faces_;
 };
 
 }  // namespace detail
 
-/// Reads a surface from a Wavefront OBJ file: its `v` and `f` lines, in any order. Polygons are split into fans;
-/// normals, textures, groups and materials are ignored. A backslash at the end continues a line. Scaled, welded and
-/// checked as in `read_stl`. Throws `InputError`, with the line, if the file cannot be read.
+/// Reads a surface from a Wavefront OBJ file: its `v` and `f` lines, in any order. Polygons are split into
+/// triangles: convex ones into the fan of their first corner, others by clipping ears in the plane of their mean
+/// normal. Normals, textures, groups and materials are ignored. A backslash at the end continues a line. Scaled, welded
+/// and checked as in `read_stl`. Throws `InputError`, with the line, if the file cannot be read, and for a polygon
+/// whose border crosses itself or that has no area.
 template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_obj(const std::string& path, const SurfaceFileSettings& settings) {
   detail::validate(settings, path);

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "../../reference/message_of.hpp"
+#include "hmps/shapes/surface_patch.hpp"
+
 namespace obj_file_test {
 
 using Triangle = std::array<hmps::Index, 3>;
@@ -22,6 +27,43 @@ TEST(ObjFile, NumbersCornersForwardsAndBackwards) {
 TEST(ObjFile, NegativeNumbersCountOnlyEarlierVertices) {
   hmps::SurfaceMesh<double> mesh;
   EXPECT_THROW(hmps::detail::ObjParser<double>(mesh, 1)("f -1 -2 -3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"), hmps::InputError);
+}
+
+/// Parses `text` and returns the surface.
+hmps::SurfaceMesh<double> parsed(const std::string& text) {
+  hmps::SurfaceMesh<double> mesh;
+  mesh.source = "a.obj";
+  hmps::detail::ObjParser<double>(mesh, 1e-3)(text);
+  return mesh;
+}
+
+TEST(ObjFile, ConcaveFacesKeepTheirArea) {
+  const std::string vertices =
+      "v 0 0 5\nv 10 0 5\nv 10 4 5\nv 4 4 5\nv 4 10 5\nv 0 10 5\n"
+      "v 0 0 0\nv 10 0 0\nv 10 4 0\nv 4 4 0\nv 4 10 0\nv 0 10 0\n";
+  const std::string faces =
+      "f 2 3 4 5 6 1\nf 12 11 10 9 8 7\n"
+      "f 1 7 8 2\nf 2 8 9 3\nf 3 9 10 4\nf 4 10 11 5\nf 5 11 12 6\nf 6 12 7 1\n";
+  for (const std::string& text : {vertices + faces, faces + vertices}) {
+    const auto mesh = parsed(text);
+    EXPECT_EQ(mesh.triangles.size(), 20u);
+    EXPECT_NO_THROW(hmps::require_closed(mesh));
+    EXPECT_NEAR(hmps::volume(mesh), 320e-9, 1e-20);
+    EXPECT_NEAR(hmps::area(mesh), 2 * 64e-6 + 40 * 5e-6, 1e-17);
+  }
+}
+
+TEST(ObjFile, NamesTheLineOfAFaceThatIsNone) {
+  const std::string vertices = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 0.5 0.5 0\n";
+  const auto message = [&](const std::string& face) {
+    return hmps_test::message_of([&] { (void)parsed(vertices + "f 1 2 3\n" + face); });
+  };
+  EXPECT_NE(message("f 1 2 3 4").find("a.obj, line 8: the border of a face of 4 corners crosses itself"),
+            std::string::npos);
+  EXPECT_NE(message("f 1 6 5 2\nf 1 2 3\n").find("a.obj, line 8: a face of 4 corners encloses no area"),
+            std::string::npos);
+  // Vertices that are no numbers are reported by the checks of the whole surface.
+  EXPECT_EQ(message("v 1e308 0 0\nv -1e308 0 0\nv 0 1e308 0\nv 0 -1e308 0\nf 7 9 8 10\n"), "");
 }
 
 }  // namespace obj_file_test
