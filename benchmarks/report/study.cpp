@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <hmps/output/file_replacement.hpp>
 
 #include "common/files.hpp"
 #include "common/streams.hpp"
@@ -40,7 +41,7 @@ void Study::publish(const Table& table, const Picture& picture) {
   whole_ = whole_ && table.broken.empty();
   std::printf("%s\n%s\n", table.name.c_str(), text.c_str());
   std::fflush(stdout);
-  examples::write_atomically(out / (table.name + ".csv"), table.csv());
+  hmps::replace_file(out / (table.name + ".csv"), table.csv());
   if (!picture.file.empty()) text += "![" + picture.words + "](images/" + picture.file + ")\n\n";
   draw(picture);
   publish(table.name, text);
@@ -54,7 +55,7 @@ std::string Study::page() const {
 void Study::save(const std::string& page) const {
   if (document.empty()) return;
   examples::prepare_folder(fs::absolute(document).parent_path());
-  examples::write_atomically(document, page);
+  hmps::replace_file(document, page);
 }
 void Study::draw(const Picture& picture) const {
   if (document.empty() || picture.file.empty()) return;

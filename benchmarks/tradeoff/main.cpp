@@ -3,6 +3,7 @@
 // --help.
 #include <algorithm>
 #include <cstdio>
+#include <hmps/output/file_replacement.hpp>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
       const Scene scene = make({.quick = study.quick, .out = study.out / name, .finer = finer});
       if (run) {
         const Sweep swept = sweep(scene, [](const std::string& line) { std::cerr << line << '\n'; });
-        examples::write_atomically(table, csv(scene, swept));
+        hmps::replace_file(table, csv(scene, swept));
       }
       all.push_back({scene, read_csv(scene, examples::read_file(table))});
       if (!wanted) continue;

@@ -2,6 +2,7 @@
 // Solves problems with known answers at increasing resolution and writes docs/measured/verification.md. See --help.
 #include <algorithm>
 #include <cstdio>
+#include <hmps/output/file_replacement.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,7 @@ std::vector<Solved> solve_all(const std::vector<Problem>& all, const std::string
         std::fprintf(stderr, "%s, %s, %d: %.1f s\n", one.problem.name.c_str(), method.name.c_str(), size,
                      one.trials.back().seconds);
       }
-    examples::write_atomically(file, csv(solved));
+    hmps::replace_file(file, csv(solved));
   }
   return solved;
 }
@@ -83,6 +84,6 @@ int main(int argc, char** argv) {
     draw(solved, study.out / "verification.png");
     study.draw({"verification.png", "", [&](const auto& path) { draw(solved, path); }});
     study.save(page_of(solved));
-    if (!study.document.empty()) examples::write_atomically(beside, csv(solved));
+    if (!study.document.empty()) hmps::replace_file(beside, csv(solved));
   });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <hmps/output/file_replacement.hpp>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -63,7 +64,7 @@ void write_counts(const std::string& path, const std::vector<std::vector<Count>>
     for (const Count& c : row)
       text << c.particles << ' ' << c.parts << ' ' << c.own << ' ' << c.layer << ' ' << c.gathered << ' ' << c.peers
            << ' ' << c.without_contact << ' ' << c.bytes << ' ' << c.contact << ' ' << c.all_bytes << '\n';
-  examples::write_atomically(path, text.str());
+  hmps::replace_file(path, text.str());
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ int main(int argc, char** argv) {
     if (out.empty())
       std::cout << page;
     else
-      examples::write_atomically(out, page);
+      hmps::replace_file(out, page);
   } catch (const std::exception& error) {
     std::cerr << "across_machines_count: " << error.what() << '\n';
     return 2;

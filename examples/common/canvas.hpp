@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <hmps/output/file_replacement.hpp>
 #include <numbers>
 #include <span>
 #include <string>
@@ -133,7 +134,7 @@ class Canvas {
     };
     const bool made = cairo_surface_write_to_png_stream(surface_, append, &bytes) == CAIRO_STATUS_SUCCESS;
     require(made, "cannot make the picture ", path.string());
-    write_atomically(path, bytes);
+    hmps::replace_file(path, bytes);
   }
 
  private:

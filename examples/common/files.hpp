@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include <hmps/core/error.hpp>
+#include <hmps/output/file_replacement.hpp>
 
 #include "error.hpp"
 
@@ -31,29 +32,18 @@ inline void flush_folder(const fs::path& path) {
   require(flushed, "cannot write the folder ", path.string(), " to the disk: ", std::strerror(reason));
 }
 
-/// Replaces the file at `path` by `bytes` atomically: at any moment, also after kill -9 or a loss of power, either the
-/// old or the new file is there and complete. The new file is written beside the old one, flushed to the disk, then
-/// renamed. Throws `InputError` with the reason if this fails.
+/// Replaces the file at `path` by `bytes` as `hmps::replace_file` does, and flushes them to the disk before the new
+/// file takes the place of the old one: also after a loss of power, either of them is there and complete. Throws
+/// `InputError` with the reason if this fails.
 inline void write_atomically(const fs::path& path, std::string_view bytes) {
-  const fs::path temporary = path.string() + ".part";
-  const auto fail = [&](const char* what) {
-    throw hmps::InputError(message("cannot ", what, " ", path.string(), ": ", std::strerror(errno),
-                                   "; check the permissions and the free space of the output folder"));
-  };
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) fail("write");
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      ::close(file);
-      fail("write");
-    }
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  const bool flushed = ::fsync(file) == 0;
-  if (::close(file) != 0 || !flushed) fail("write");
-  if (::rename(temporary.c_str(), path.c_str()) != 0) fail("replace");
+  hmps::replace_file(path, bytes, [&](const fs::path& temporary) {
+    const int file = ::open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
+    const bool flushed = file >= 0 && ::fsync(file) == 0;
+    const int reason = errno;
+    if (file >= 0) ::close(file);
+    require(flushed, "cannot write ", path.string(), " to the disk: ", std::strerror(reason),
+            "; check the free space of the output folder");
+  });
 }
 
 /// The bytes of the file at `path`. Throws `InputError` if it cannot be read.

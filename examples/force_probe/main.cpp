@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <hmps/motion/csv.hpp>
+#include <hmps/output/file_replacement.hpp>
 #include <iostream>
 #include <string>
 #include <system_error>
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
     if (out.empty()) {
       std::cout << table << std::flush;
     } else {
-      examples::write_atomically(out, table);
+      hmps::replace_file(out, table);
     }
   } catch (const std::exception& error) {
     std::cerr << "force_probe: " << error.what() << '\n';

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <hmps/output/file_replacement.hpp>
 
 #include "../../common/canvas.hpp"
 #include "options.hpp"
@@ -124,7 +125,7 @@ void write_table2(const std::filesystem::path& path, const std::array<CaseResult
   for (std::size_t i = 0; i < 4; ++i)
     if (const auto& reason = results[i].left_out; !reason.empty())
       text += "\nCase " + std::string(cases[i].name) + " was run with other settings: " + reason + ".\n";
-  examples::write_atomically(path, text);
+  hmps::replace_file(path, text);
 }
 
 void draw_fold(const std::filesystem::path& path, const std::array<CaseResult, 4>& results) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <hmps/output/file_replacement.hpp>
 #include <limits>
 #include <string>
 #include <vector>
@@ -133,7 +134,7 @@ void write_mechanisms(const std::filesystem::path& path, const std::array<CaseRe
       "\nAll by contacts.csv, every millisecond. Moments are those of the forces on the half of the leaf beyond its\n"
       "middle, about its middle; the largest are sought from 1.4 s until the leaf folds, or until 1.8 s. Areas count\n"
       "the particles that touch, at their size at rest. Gaps are between balls of the particles' size.\n";
-  examples::write_atomically(path, text);
+  hmps::replace_file(path, text);
 }
 
 }  // namespace swallowing

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -11,18 +12,26 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 
-namespace hmps::inline HMPS_ABI::detail {
+namespace hmps::inline HMPS_ABI {
 
-/// Replaces the contents of the file at `path` with `bytes`: writes them beside it as `path`.part, which it then
-/// renames, so that a reader finds either the whole old file or the whole new one, even if the program is killed
-/// meanwhile. Follows a symbolic link at `path`, but replaces whatever file or link bears the temporary name. Does not
-/// wait until the data are on the disk: a loss of power may cost the latest files. Throws `InputError` with the name
-/// and the reason, also if `path` exists and is not a regular file (a device, for example); the old file then remains.
-inline void replace_file(std::filesystem::path path, std::string_view bytes) {
+/// Replaces the contents of the file at `path` with `bytes`, or makes it: writes them beside it as `path`.part, which
+/// it then renames, so that a reader finds either the whole old file or the whole new one, even if the program is
+/// killed meanwhile. Follows a symbolic link at `path`, but replaces whatever file or link bears the temporary name. On
+/// an error the old file remains, and the temporary one does not.
+///
+/// Does not wait until the data are on the disk: a loss of power may cost the latest files. For a file that must
+/// outlast it, such as a checkpoint, `before_rename` can flush the temporary file, whose name it is given, to the disk;
+/// an exception of it counts as an error.
+///
+/// Throws `InputError` with the name and the reason if the file cannot be written, for example because its folder is
+/// missing or the disk is full, and if `path` exists and is not a regular file: a program that is run by root would
+/// otherwise replace a device by a file.
+inline void replace_file(std::filesystem::path path, std::string_view bytes,
+                         const std::function<void(const std::filesystem::path&)>& before_rename = {}) {
   std::error_code problem;
   const std::filesystem::file_status status = std::filesystem::status(path, problem);
-  require(!std::filesystem::exists(status) || std::filesystem::is_regular_file(status), "hmps: cannot replace ",
-          path.string(), ": it is not a regular file; give the name of a file");
+  detail::require(!std::filesystem::exists(status) || std::filesystem::is_regular_file(status), "hmps: cannot replace ",
+                  path.string(), ": it is not a regular file; give the name of a file");
   if (std::filesystem::is_symlink(path, problem)) {
     const std::filesystem::path target = std::filesystem::weakly_canonical(path, problem);
     if (!problem) path = target;
@@ -31,8 +40,8 @@ inline void replace_file(std::filesystem::path path, std::string_view bytes) {
   temporary += ".part";
   const auto fail = [&](const char* what, const std::string& reason) {
     std::filesystem::remove(temporary, problem);
-    throw InputError(message("hmps: cannot ", what, " ", path.string(), ": ", reason,
-                             "; check that its folder exists, its permissions and the free space"));
+    throw InputError(detail::message("hmps: cannot ", what, " ", path.string(), ": ", reason,
+                                     "; check that its folder exists, its permissions and the free space"));
   };
   // Written through, a link under that name would overwrite the file to which it leads, and then take the place of
   // `path`.
@@ -43,8 +52,14 @@ inline void replace_file(std::filesystem::path path, std::string_view bytes) {
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) fail("write", errno != 0 ? std::generic_category().message(errno) : "the file system does not say why");
+  try {
+    if (before_rename) before_rename(temporary);
+  } catch (...) {
+    std::filesystem::remove(temporary, problem);
+    throw;
+  }
   std::filesystem::rename(temporary, path, problem);
   if (problem) fail("replace", problem.message());
 }
 
-}  // namespace hmps::inline HMPS_ABI::detail
+}  // namespace hmps::inline HMPS_ABI

@@ -182,7 +182,7 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
   detail::require(path.extension() == ".vtu", "hmps: ", path.string(),
                   " should be a VTK file of the kind .vtu; give it that ending, by which ParaView recognises it");
   require_finite(x, "the position");
-  detail::replace_file(path, vtu_text(position_field("position", x), fields, settings));
+  replace_file(path, vtu_text(position_field("position", x), fields, settings));
 }
 
 /// The text of a ParaView collection (.pvd): the time in s and the file of each frame, with its name relative to the
@@ -219,7 +219,7 @@ class VtuSeries {
                     " has control characters or bytes that are not UTF-8; give it another name");
     std::error_code problem;
     std::filesystem::create_directories(path_.parent_path(), problem);
-    detail::replace_file(path_, pvd_text(frames_));
+    replace_file(path_, pvd_text(frames_));
   }
 
   /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection. Throws `InputError` as that
@@ -245,7 +245,7 @@ class VtuSeries {
     // If the collection cannot be written, it stays as it is, and the frame can be added again.
     auto frames = frames_;
     frames.emplace_back(time, name);
-    detail::replace_file(path_, pvd_text(frames));
+    replace_file(path_, pvd_text(frames));
     frames_ = std::move(frames);
   }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <hmps/output/file_replacement.hpp>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ TEST_F(Program, PublishesATableItsSectionAndItsPicture) {
   const auto measure = [](Study& study) {
     EXPECT_TRUE(study.quick);
     study.publish({.name = "one", .header = {"a"}, .rows = {{"1"}}},
-                  {"one.png", "a picture", [](const auto& file) { examples::write_atomically(file, "drawn"); }});
+                  {"one.png", "a picture", [](const auto& file) { hmps::replace_file(file, "drawn"); }});
   };
   ASSERT_EQ(run({"--quick", "--out", path("out"), "--document", path("page/study.md")}, measure), 0);
   EXPECT_EQ(examples::read_file(path("out/one.csv")), "a\n1\n");
@@ -50,7 +51,7 @@ TEST_F(Program, WritesThePageInTheFolderWhereItRuns) {
   fs::current_path(path(""));
   const int code = run({"--out", path("out"), "--document", "study.md"}, [](Study& study) {
     study.publish({.name = "one", .header = {"a"}},
-                  {"one.png", "", [](const auto& file) { examples::write_atomically(file, "drawn"); }});
+                  {"one.png", "", [](const auto& file) { hmps::replace_file(file, "drawn"); }});
   });
   fs::current_path(before);
   EXPECT_EQ(code, 0);
@@ -79,7 +80,7 @@ TEST_F(Program, ReportsFailedChecksOnThePageAndByItsExitCode) {
 TEST_F(Program, ExitsWithTwoOnError) {
   EXPECT_EQ(run({"--out", path("out")}, [](Study&) { throw hmps::InputError("no"); }), 2);
   examples::prepare_folder(path(""));
-  examples::write_atomically(path("file"), "");
+  hmps::replace_file(path("file"), "");
   EXPECT_EQ(run({"--out", path("file/out")}, [](Study&) { FAIL() << "there is no folder"; }), 2);
 }
 

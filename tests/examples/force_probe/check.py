@@ -5,6 +5,7 @@ Usage: check.py PROGRAM. Ends with 1 and a message at the first difference.
 """
 import csv
 import math
+import os
 import pathlib
 import random
 import shlex
@@ -286,6 +287,11 @@ def main(program):
                        "--penalty-ratio", "--time-step"):
             refused(program, folder, header + cube, option, option, "0x1")  # one, to CLI11
         refused(program, folder, header + cube, "would replace", "--out", folder / "bad.csv")
+        # What is no file is not replaced by one.
+        os.mkfifo(folder / "pipe")
+        refused(program, folder, header + cube, "not a regular file", "--spacing", str(SPACING), "--out", folder / "pipe")
+        if not (folder / "pipe").is_fifo():
+            sys.exit("a pipe was replaced by a file")
         # Forces that did not arrive, because the disk is full or the stream closed, are an error.
         command = f"{shlex.quote(program)} --spacing {SPACING} --in {shlex.quote(str(folder / 'bad.csv'))}"
         for stream in (">/dev/full", ">&-"):

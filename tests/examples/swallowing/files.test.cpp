@@ -2,9 +2,11 @@
 #include "../common/files.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <hmps/motion/csv.hpp>
 
+#include "../../reference/file_size_limit.hpp"
 #include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 #include "../common/csv_writer.hpp"
@@ -24,6 +26,31 @@ TEST(Files, AreReplacedAsAWhole) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing is left beside it";
   EXPECT_THROW(examples::write_atomically(folder.path() / "missing" / "a.txt", "x"), InputError);
   EXPECT_THROW((void)examples::read_file(folder.path() / "b.txt"), InputError);
+}
+
+TEST(Files, ReplacesOnlyFilesAndFollowsNoLinkButItsOwn) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe", file = folder.path() / "a.txt", link = folder.path() / "link",
+             other = folder.path() / "precious";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(examples::write_atomically(pipe, "x"), InputError);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  examples::write_atomically(file, "first");
+  std::filesystem::create_symlink("a.txt", link);
+  examples::write_atomically(link, "second");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(examples::read_file(file), "second");
+  examples::write_atomically(other, "kept");
+  std::filesystem::create_symlink("precious", folder.path() / "a.txt.part");
+  examples::write_atomically(file, "third");
+  EXPECT_EQ(examples::read_file(other), "kept");
+  EXPECT_FALSE(std::filesystem::is_symlink(file));
+  {
+    const hmps_test::FileSizeLimit limit(4096);
+    EXPECT_THROW(examples::write_atomically(file, std::string(100000, 'x')), InputError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.txt.part"));
+  EXPECT_EQ(examples::read_file(file), "third");
 }
 
 TEST(Files, ReportsAFolderThatCannotBeWritten) {

@@ -2,7 +2,13 @@
 #include "hmps/output/file_replacement.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include "../../reference/file_size_limit.hpp"
 #include "../../reference/temporary_folder.hpp"
 #include "hmps/core/text_file.hpp"
 
@@ -13,9 +19,9 @@ using namespace hmps;
 TEST(FileReplacement, TheNewFileTakesThePlaceOfTheOld) {
   const hmps_test::TemporaryFolder folder;
   const auto path = folder.path() / "a.bin";
-  detail::replace_file(path, std::string_view("first\0\n", 7));
+  replace_file(path, std::string_view("first\0\n", 7));
   EXPECT_EQ(detail::read_text(path.string()), std::string("first\0\n", 7));
-  detail::replace_file(path, "2");
+  replace_file(path, "2");
   EXPECT_EQ(detail::read_text(path.string()), "2");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
@@ -23,9 +29,9 @@ TEST(FileReplacement, TheNewFileTakesThePlaceOfTheOld) {
 TEST(FileReplacement, KeepsALink) {
   const hmps_test::TemporaryFolder folder;
   const auto file = folder.path() / "a.bin", link = folder.path() / "link.bin";
-  detail::replace_file(file, "first");
+  replace_file(file, "first");
   std::filesystem::create_symlink("a.bin", link);
-  detail::replace_file(link, "second");
+  replace_file(link, "second");
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(detail::read_text(file.string()), "second");
 }
@@ -35,13 +41,13 @@ TEST(FileReplacement, DoesNotFollowALinkAtTheTemporaryName) {
   const auto other = folder.path() / "precious.txt", path = folder.path() / "a.bin",
              part = folder.path() / "a.bin.part";
   const auto expect_other_kept = [&] {
-    detail::replace_file(path, "new");
+    replace_file(path, "new");
     EXPECT_EQ(detail::read_text(other.string()), "precious");
     EXPECT_EQ(detail::read_text(path.string()), "new");
     EXPECT_FALSE(std::filesystem::is_symlink(path));
     EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(part)));
   };
-  detail::replace_file(other, "precious");
+  replace_file(other, "precious");
   std::filesystem::create_symlink("precious.txt", part);
   expect_other_kept();
   std::filesystem::create_hard_link(other, part);
@@ -52,20 +58,47 @@ TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
   const hmps_test::TemporaryFolder folder;
   const auto missing = folder.path() / "missing" / "a.bin";
   try {
-    detail::replace_file(missing, "1");
+    replace_file(missing, "1");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(missing.string()), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
   }
   // What is not a regular file stays: a program run by root would otherwise replace a device by a file.
-  EXPECT_THROW(detail::replace_file("/dev/null", "1"), InputError);
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(replace_file(pipe, "1"), InputError);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  std::filesystem::remove(pipe);
   // A folder that is not empty cannot be replaced by a file.
   const auto taken = folder.path() / "taken";
   std::filesystem::create_directories(taken / "inner");
-  EXPECT_THROW(detail::replace_file(taken, "1"), InputError);
+  EXPECT_THROW(replace_file(taken, "1"), InputError);
   EXPECT_TRUE(std::filesystem::is_directory(taken / "inner"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(FileReplacement, CallsBeforeItRenames) {
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.bin";
+  replace_file(path, "old");
+  replace_file(path, "new", [&](const std::filesystem::path& temporary) {
+    EXPECT_EQ(detail::read_text(temporary.string()), "new");
+    EXPECT_EQ(detail::read_text(path.string()), "old");
+  });
+  EXPECT_EQ(detail::read_text(path.string()), "new");
+  EXPECT_THROW(replace_file(path, "newer", [](const auto&) { throw StateError("no"); }), StateError);
+  EXPECT_EQ(detail::read_text(path.string()), "new");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(FileReplacement, LeavesNothingOfAFileThatDoesNotFit) {
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "a.bin";
+  replace_file(path, "old");
+  const hmps_test::FileSizeLimit limit(4096);
+  EXPECT_THROW(replace_file(path, std::string(100000, 'x')), InputError);
+  EXPECT_EQ(detail::read_text(path.string()), "old");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
