@@ -15,6 +15,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "../common/error.hpp"
@@ -91,9 +92,27 @@ void add_contact(const State& state, const Settings& settings, const hmps::Matri
   contact.add(hmps::vectors(state.position), hmps::vectors(state.velocity), F, f, settings.time_step);
 }
 
+/// Throws `InputError` unless all forces are finite numbers. `remedy`: what else helps.
+inline void require_numbers(const Forces& forces, const char* remedy) {
+  const auto check = [&](const char* name, const std::vector<Vector>& force) {
+    for (std::size_t i = 0; i < force.size(); ++i)
+      for (const double component : force[i])
+        examples::require(
+            std::isfinite(component), "the ", name, " force on particle ", i, " is (", force[i][0], ' ', force[i][1],
+            ' ', force[i][2],
+            ") N/m3: numbers on the way to it are too large; give smaller moduli, densities, viscosities or "
+            "velocities",
+            remedy);
+  };
+  check("elastic", forces.elastic);
+  check("artificial", forces.artificial);
+  check("viscous", forces.viscous);
+  check("contact", forces.contact);
+}
+
 /// The forces on `state`, evaluated in the scalar type `S`. All of them, contact too, are those at
 /// the given velocities: for the contact of \paper{3} pass v* of \paper{2}. Throws `InputError`
-/// for a state that has none, such as an inverted particle.
+/// for a state that has none, such as an inverted particle, and for forces that are not finite.
 template <class S>
 [[nodiscard]] Forces probe(const State& state, const Settings& settings) {
   const std::size_t size = state.reference.size();
@@ -130,6 +149,7 @@ template <class S>
   } else {
     add_contact<S, hmps::CorrectedFriction>(state, settings, F, hmps::vectors(forces.contact));
   }
+  require_numbers(forces, std::is_same_v<S, float> ? ", or --scalar double" : "");
   return forces;
 }
 

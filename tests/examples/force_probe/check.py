@@ -287,9 +287,17 @@ def main(program):
                        "--penalty-ratio", "--time-step"):
             refused(program, folder, header + cube, option, option, "0x1")  # one, to CLI11
         refused(program, folder, header + cube, "would replace", "--out", folder / "bad.csv")
+        # Forces that overflow: two layers with different velocities, and a cube in tension.
+        moved = "".join(f"{place},{place},{n % 4},0,0,1\n" for n, place in enumerate(places))
+        spacing = ("--spacing", str(SPACING))
+        refused(program, folder, header + moved, "the viscous force on particle 0 is (", *spacing, "--viscosity", "1e300")
+        stretched = "".join(f"{place},{1.01 * float(place.split(',')[0])},{place.split(',', 1)[1]},0,0,0,1\n"
+                            for place in places)
+        refused(program, folder, header + stretched, "the elastic force on particle 0 is (", *spacing,
+                "--young", "1e36", "--d1", "1e38", "--scalar", "float")
         # What is no file is not replaced by one.
         os.mkfifo(folder / "pipe")
-        refused(program, folder, header + cube, "not a regular file", "--spacing", str(SPACING), "--out", folder / "pipe")
+        refused(program, folder, header + cube, "not a regular file", *spacing, "--out", folder / "pipe")
         if not (folder / "pipe").is_fifo():
             sys.exit("a pipe was replaced by a file")
         # Forces that did not arrive, because the disk is full or the stream closed, are an error.
