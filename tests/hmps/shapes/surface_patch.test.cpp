@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <string>
 #include <utility>
 
+#include "../../reference/message_of.hpp"
 #include "hmps/shapes/surfaces.hpp"
 
 namespace surface_patch_test {
@@ -63,6 +66,30 @@ TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
 
 TEST(SurfacePatch, RejectsInvalidLengths) {
   for (const double longest : {0.0, -1.0, 1e-4}) EXPECT_THROW((void)refine(brick(), longest), InputError) << longest;
+}
+
+SurfaceMesh<double> triangle(const V& a, const V& b, const V& c) { return {{a, b, c}, {{0, 1, 2}}, "one triangle"}; }
+
+TEST(SurfacePatch, CountsTrianglesBeforeItMakesThem) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> u(-20, 20);
+  for (int trial = 0; trial < 300; ++trial) {
+    const V a = V::Zero(), b(u(random), 0, 0), c(u(random), trial % 3 == 0 ? u(random) : 0.02 * u(random), 0);
+    const auto fewest = detail::fewest_refined({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    const auto made = static_cast<double>(refine(triangle(a, b, c), 1).triangles.size());
+    EXPECT_LE(fewest, made);
+    EXPECT_GE(fewest, made / 16) << b.transpose() << ", " << c.transpose();
+  }
+  EXPECT_EQ(detail::fewest_refined({1, 1, 1}), 1);
+  EXPECT_EQ(detail::fewest_refined({4, 4, 4}), 16);
+  // Slivers with a short edge, and with a corner on the middle of an edge.
+  for (const double x : {0.0, 0.5}) {
+    const auto sliver = triangle(V(0, 0, 0), V(1, 0, 0), V(x, 1e-9, 0));
+    const std::string message = hmps_test::message_of([&] { (void)refine(sliver, 1e-7); });
+    EXPECT_NE(message.find("e+1"), std::string::npos) << message;  // not 2e7, which is found by refining
+    EXPECT_NE(message.find("remove long slivers"), std::string::npos) << message;
+  }
+  EXPECT_THROW((void)refine(triangle(V(0, 0, 0), V(1e200, 0, 0), V(0, 1e200, 0)), 1), InputError);
 }
 
 SurfaceMesh<double> inside_out() {
