@@ -129,6 +129,7 @@
 #include "hmps/motion/rigid_motion.hpp"
 #include "hmps/output/file_replacement.hpp"
 #include "hmps/output/position_field.hpp"
+#include "hmps/output/pvd_text.hpp"
 #include "hmps/output/vtk_field.hpp"
 #include "hmps/output/vtu_file.hpp"
 #include "hmps/output/xml_text.hpp"

@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,6 +27,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/output/file_replacement.hpp"
 #include "hmps/output/position_field.hpp"
+#include "hmps/output/pvd_text.hpp"
 #include "hmps/output/vtk_field.hpp"
 #include "hmps/output/xml_text.hpp"
 
@@ -185,31 +190,34 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
   replace_file(path, vtu_text(position_field("position", x), fields, settings));
 }
 
-/// The text of a ParaView collection (.pvd): the time in s and the file of each frame, with its name relative to the
-/// collection's folder.
-[[nodiscard]] inline std::string pvd_text(std::span<const std::pair<double, std::string>> frames) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      "<Collection>\n";
-  for (const auto& [time, file] : frames)
-    text += "<DataSet timestep=\"" + detail::shortest(time) + "\" group=\"\" part=\"0\" file=\"" + detail::xml(file) +
-            "\"/>\n";
-  return text + "</Collection>\n</VTKFile>\n";
-}
+/// How a series of frames begins.
+struct VtuSeriesSettings {
+  /// The time in s at which a resumed run goes on: the frames up to this time that are listed already are kept, later
+  /// ones are dropped. Without it, the series begins anew.
+  std::optional<double> resume_at = {};
+};
 
 /// Frames of a run, which ParaView shows one after another: open `press.pvd` there.
 ///
 ///     VtuSeries frames("results/press.pvd");                       // makes the folder
+///     VtuSeries frames("results/press.pvd", {.resume_at = t});     // goes on with it, from a checkpoint at time t
 ///     frames.add(t, x, {{vtk_field("velocity", v)}});              // writes results/press_00000.vtu, ...
 ///
 /// Positions of a frame are in single or double precision, whichever it needs. The collection is complete at any
 /// moment, so that a run can be watched while it goes on. Frames of an earlier run with the same name are overwritten
-/// one by one.
+/// one by one, in a resumed run those that it dropped.
 class VtuSeries {
  public:
-  /// Begins the collection `path` (.pvd). Throws `InputError` if its folder cannot be made or written to, and for a
-  /// name that does not end in .pvd, is not UTF-8 or has control characters.
-  explicit VtuSeries(const std::filesystem::path& path) : path_(std::filesystem::absolute(path)) {
+  /// Begins the collection `path` (.pvd), or goes on with it. If it is not there yet, a resumed run begins it. A
+  /// resumed run may write the frame at `resume_at` once more, in place of the one that was kept. Times of frames and
+  /// `resume_at` are compared to 1e-8 of the latter: sums of up to ten million time steps differ by less from products,
+  /// and the times of two steps by more.
+  ///
+  /// Throws `InputError` if its folder cannot be made or written to, for a name that does not end in .pvd, is not UTF-8
+  /// or has control characters, for a `resume_at` that is not finite, and if the collection with which a resumed run
+  /// should go on was damaged or is not from a series of this name.
+  explicit VtuSeries(const std::filesystem::path& path, const VtuSeriesSettings& settings = {})
+      : path_(std::filesystem::absolute(path)) {
     detail::require(path_.extension() == ".pvd", "hmps: ", path_.string(),
                     " should be a ParaView collection; end its name in .pvd");
     // The collection names its frames, so that ParaView would look for question marks.
@@ -217,6 +225,7 @@ class VtuSeries {
     detail::require(detail::xml_characters(stem) == stem, "hmps: the name of the ParaView collection ",
                     detail::printable(stem),
                     " has control characters or bytes that are not UTF-8; give it another name");
+    if (settings.resume_at) resume(*settings.resume_at);
     std::error_code problem;
     std::filesystem::create_directories(path_.parent_path(), problem);
     replace_file(path_, pvd_text(frames_));
@@ -229,8 +238,11 @@ class VtuSeries {
   template <class T, int D>
   void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
            VtuSettings settings = {}) {
-    detail::require(frames_.empty() || time > frames_.back().first, "hmps: a frame of ", path_.string(), " at ", time,
-                    " s follows one at ", frames_.empty() ? 0.0 : frames_.back().first,
+    // If the collection cannot be written, it stays as it is, and the frame can be added again.
+    auto frames = frames_;
+    if (!frames.empty() && std::abs(frames.back().first - time) <= again_) frames.pop_back();
+    detail::require(frames.empty() || time > frames.back().first, "hmps: a frame of ", path_.string(), " at ", time,
+                    " s follows one at ", frames.empty() ? 0.0 : frames.back().first,
                     " s; times must grow from frame to frame");
     if (std::error_code missing; std::filesystem::exists(path_, missing))
       if (detail::read_text(path_.string()) != pvd_text(frames_))
@@ -238,23 +250,47 @@ class VtuSeries {
                                          frames_.size(),
                                          "; another series or program writes to it: give each its own path"));
     settings.time = time;
-    const std::string number = std::to_string(frames_.size());
-    const std::string name =
-        path_.stem().string() + '_' + std::string(5 - std::min<std::size_t>(number.size(), 5), '0') + number + ".vtu";
+    const std::string name = file_of(frames.size());
     write_vtu(path_.parent_path() / name, x, fields, settings);
-    // If the collection cannot be written, it stays as it is, and the frame can be added again.
-    auto frames = frames_;
     frames.emplace_back(time, name);
     replace_file(path_, pvd_text(frames));
     frames_ = std::move(frames);
+    again_ = -1;
   }
 
   /// Time in s and file of every frame.
   [[nodiscard]] const std::vector<std::pair<double, std::string>>& frames() const { return frames_; }
 
  private:
+  [[nodiscard]] std::string file_of(std::size_t frame) const {
+    const std::string number = std::to_string(frame);
+    return path_.stem().string() + '_' + std::string(5 - std::min<std::size_t>(number.size(), 5), '0') + number +
+           ".vtu";
+  }
+
+  /// Takes over the frames up to `time`.
+  void resume(double time) {
+    detail::require(detail::is_finite(time), "hmps: ", path_.string(), " is to be resumed at ", time,
+                    " s; give the time of the checkpoint");
+    std::error_code missing;
+    if (!std::filesystem::is_regular_file(path_, missing)) return;
+    const std::string text = detail::read_text(path_.string());
+    for (const double listed : detail::pvd_times(text)) frames_.emplace_back(listed, file_of(frames_.size()));
+    const auto increases = [](const auto& a, const auto& b) { return detail::is_finite(b.first) && a.first < b.first; };
+    detail::require(
+        text == pvd_text(frames_) && (frames_.empty() || detail::is_finite(frames_.front().first)) &&
+            std::ranges::adjacent_find(frames_, std::not_fn(increases)) == frames_.end(),
+        "hmps: ", path_.string(),
+        " cannot be resumed: it is damaged, or was not written by a series of this name; put back the file of the "
+        "interrupted run, or leave out resume_at to begin anew");
+    again_ = 1e-8 * std::abs(time);
+    std::erase_if(frames_, [&](const auto& frame) { return frame.first > time + again_; });
+    if (!frames_.empty() && frames_.back().first < time - again_) again_ = -1;
+  }
+
   std::filesystem::path path_;
   std::vector<std::pair<double, std::string>> frames_;
+  double again_ = -1;  // s, by how much the next frame may differ from the last one that it replaces; -1: none
 };
 
 }  // namespace hmps::inline HMPS_ABI

@@ -156,6 +156,78 @@ TEST(VtuSeries, AcceptsAFrameAgainAfterAWriteError) {
   EXPECT_EQ(series.frames().size(), 2U);
 }
 
+std::vector<double> times_of(const VtuSeries& series) {
+  std::vector<double> times;
+  for (const auto& [time, file] : series.frames()) times.push_back(time);
+  return times;
+}
+
+TEST(VtuSeries, GoesOnWhereARunIsResumed) {
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "a & b.pvd";
+  std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
+  const auto text = [&](const char* file) { return detail::read_text((folder.path() / file).string()); };
+  {
+    VtuSeries series(path, {.resume_at = 0.3});  // nothing to resume
+    EXPECT_TRUE(series.frames().empty());
+    for (const double time : {0.1, 0.2, 0.3, 0.4, 0.5}) series.add(time, vectors(x));
+  }
+  const std::string before = text("a & b_00001.vtu"), at = text("a & b_00002.vtu"), after = text("a & b_00003.vtu");
+  x[1][0] = 1;
+  {
+    VtuSeries series(path, {.resume_at = 0.1 + 0.2});  // 0.30000000000000004
+    EXPECT_EQ(times_of(series), (std::vector<double>{0.1, 0.2, 0.3}));
+    EXPECT_EQ(text("a & b.pvd"), pvd_text(series.frames()));
+    series.add(0.45, vectors(x));
+    EXPECT_EQ(series.frames().back().second, "a & b_00003.vtu");
+    EXPECT_EQ(text("a & b.pvd"), pvd_text(series.frames()));
+  }
+  EXPECT_EQ(text("a & b_00002.vtu"), at);
+  EXPECT_NE(text("a & b_00003.vtu"), after);
+  {  // The frame at which the run goes on may be written again, once.
+    VtuSeries series(path, {.resume_at = 0.3});
+    series.add(0.1 + 0.2, vectors(x));
+    EXPECT_EQ(times_of(series), (std::vector<double>{0.1, 0.2, 0.1 + 0.2}));
+    EXPECT_THROW(series.add(0.1 + 0.2, vectors(x)), InputError);
+  }
+  EXPECT_NE(text("a & b_00002.vtu"), at);
+  {  // A frame before that may not.
+    VtuSeries series(path, {.resume_at = 0.25});
+    EXPECT_EQ(times_of(series), (std::vector<double>{0.1, 0.2}));
+    EXPECT_THROW(series.add(0.2, vectors(x)), InputError);
+    series.add(0.25, vectors(x));
+    EXPECT_EQ(series.frames().back().second, "a & b_00002.vtu");
+  }
+  EXPECT_EQ(text("a & b_00001.vtu"), before);
+  EXPECT_TRUE(VtuSeries(path, {.resume_at = 0}).frames().empty());
+  EXPECT_EQ(text("a & b.pvd"), pvd_text({}));
+  EXPECT_TRUE(VtuSeries(path, {.resume_at = 1}).frames().empty());
+}
+
+TEST(VtuSeries, RefusesToGoOnWithWhatItDidNotWrite) {
+  const hmps_test::TemporaryFolder folder;
+  const auto path = folder.path() / "run.pvd";
+  const std::vector<std::pair<double, std::string>> frames{{0.1, "run_00000.vtu"}, {0.2, "run_00001.vtu"}};
+  const std::string whole = pvd_text(frames);
+  const auto of = [](double a, double b) {
+    return pvd_text(std::vector<std::pair<double, std::string>>{{a, "run_00000.vtu"}, {b, "run_00001.vtu"}});
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::string& text :
+       {std::string(), whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 1), whole + "\n",
+        std::string("nonsense"), of(0.2, 0.1), of(0.1, 0.1), of(0.1, nan), of(nan, 0.1),
+        pvd_text(std::vector<std::pair<double, std::string>>{{0.1, "other_00000.vtu"}})}) {
+    replace_file(path, text);
+    const std::string error = error_of([&] { VtuSeries(path, {.resume_at = 0.15}); });
+    EXPECT_NE(error.find(path.string() + " cannot be resumed"), std::string::npos) << error << text;
+    EXPECT_EQ(detail::read_text(path.string()), text);
+  }
+  EXPECT_NE(error_of([&] { VtuSeries(path, {.resume_at = nan}); }).find("resumed at nan"), std::string::npos);
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  EXPECT_THROW(VtuSeries(path, {.resume_at = 0.15}), InputError);
+}
+
 TEST(VtuSeries, StaysInItsFolderIfTheProgramChangesFolder) {
   const Cloud cloud;
   const hmps_test::TemporaryFolder folder, elsewhere;
