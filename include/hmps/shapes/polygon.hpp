@@ -106,7 +106,7 @@ class PolygonSplit {
   void clip(const Vector<double, 3>& normal) {
     const Vector<double, 3> first = normal.unitOrthogonal(), second = normal.cross(first);
     for (const auto& point : points_) plane_.emplace_back(point.dot(first), point.dot(second));
-    if (!turns_once() || crosses() || !clip_ears()) fault_ = PolygonFault::crosses_itself;
+    if (!turns_once() || crosses() || !clip_ears() || covers_twice()) fault_ = PolygonFault::crosses_itself;
   }
 
   /// Whether the border turns by one full angle. At the tip of a spike it may turn to either side.
@@ -185,6 +185,19 @@ class PolygonSplit {
     }
     triangles_.push_back({rest[0], rest[1], rest[2]});
     return height(plane_[rest[0]], plane_[rest[1]], plane_[rest[2]]) >= -polygon_tolerance;
+  }
+
+  /// Whether triangles lie upon each other, as where a border crosses itself in a corner.
+  [[nodiscard]] bool covers_twice() const {
+    const auto holds = [&](const Triangle& t, const Point& p) {
+      const Point &a = plane_[t[0]], &b = plane_[t[1]], &c = plane_[t[2]];
+      return std::min({left(a, b, p), left(b, c, p), left(c, a, p)}) > polygon_tolerance;
+    };
+    return std::ranges::any_of(triangles_, [&](const Triangle& t) {
+      if (height(plane_[t[0]], plane_[t[1]], plane_[t[2]]) <= polygon_tolerance) return false;
+      const Point middle = (plane_[t[0]] + plane_[t[1]] + plane_[t[2]]) / 3;
+      return std::ranges::any_of(triangles_, [&](const Triangle& u) { return u != t && holds(u, middle); });
+    });
   }
 
   std::vector<Vector<double, 3>> points_;

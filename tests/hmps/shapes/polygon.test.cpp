@@ -138,6 +138,8 @@ TEST(PolygonSplit, FindsFaults) {
   in_any_order(pentagram, fault(PolygonFault::crosses_itself));
   twice.insert(twice.end(), dart.begin(), dart.end());
   in_any_order(twice, fault(PolygonFault::crosses_itself));
+  // Corners on crossing edges, where a part is covered twice.
+  in_any_order({{0, 1}, {0, 0}, {0, 3}, {2, 3}, {2, 0}, {1, 2}, {2, 3}, {2, 0}}, fault(PolygonFault::crosses_itself));
   // A loop whose crossing is a corner, inside and outside.
   in_any_order({{0, 0}, {6, -4}, {6, 4}, {0, 0}, {3, -1}, {3, 1}}, fault(PolygonFault::crosses_itself));
   in_any_order({{0, 0}, {6, -4}, {6, 4}, {0, 0}, {-3, 1}, {-3, -1}}, [](const Polygon& polygon) {
