@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <tuple>
 #include <vector>
 
 #include "hmps/bonds/bonds.hpp"
@@ -141,7 +142,8 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
       std::plus<>{}, execute);
 }
 
-/// Energy of `mean_dilatation`, sum of V K theta_i^2 / 2; of `mean_dilatation<2>`, `mean_dilatation_energy<2>`.
+/// Energy of `mean_dilatation`, sum of V K theta_i^2 / 2; of `mean_dilatation<2>`, `mean_dilatation_energy<2>`. That of
+/// tissue that grows is in `InternalForce::energy`.
 ///
 /// @param bonds   `BondList` or `LatticeBonds` of the body
 /// @param F       deformation gradients, \paper{11}
@@ -157,7 +159,7 @@ template <int Means = 1, class B, class T, int D, class Bulk, PerParticle Vol, E
   detail::require_volumes_of(bonds, volume);
   const auto scales = detail::neighbourhood_scales(bonds);
   detail::require_not_negative(bulk, bonds.size(), "bulk modulus of mean_dilatation_energy", "Pa");
-  const auto theta = detail::mean_dilatations(bonds, F, scales, Means, execute);
+  const auto theta = detail::mean_dilatations(bonds, std::tuple<>{}, F, scales, Means, execute);
   return reduce(
       bonds.size(), 0.0,
       [&](std::size_t i) {

@@ -139,14 +139,17 @@ template <Bonds B, class E>
   return values;
 }
 
-/// theta of `MeanDilatation` of each particle, from the deformation gradients `F`; the mean is taken `means` times.
-template <Bonds B, class Gradients, class E>
-[[nodiscard]] std::vector<double> mean_dilatations(const B& bonds, const Gradients& F,
-                                                   const typename B::template Slots<1>& scales, int means,
-                                                   const E& execute) {
+/// theta of `MeanDilatation` of each particle, from the deformation gradients `F` with the growth of `terms`; the mean
+/// is taken `means` times.
+template <Bonds B, class Gradients, class E, class... Terms>
+[[nodiscard]] std::vector<double> mean_dilatations(const B& bonds, const std::tuple<Terms...>& terms,
+                                                   const Gradients& F, const typename B::template Slots<1>& scales,
+                                                   int means, const E& execute) {
+  constexpr int D = B::dimension;
   std::vector<double> dilatation(bonds.size());
   execute(bonds.size(), [&](std::size_t i) {
-    dilatation[i] = determinant(Matrix<double, B::dimension>(F[i].template cast<double>())) - 1;
+    dilatation[i] = determinant(Matrix<double, D>(F[i].template cast<double>())) -
+                    growth_of<typename B::Scalar, D, double>(terms, OneParticle{i});
   });
   return neighbourhood_means(bonds, std::move(dilatation), scales, means, execute);
 }
@@ -154,14 +157,15 @@ template <Bonds B, class Gradients, class E>
 /// The state of a body in double, from which the energies and stresses of its terms follow.
 template <Bonds B>
 struct BodyState {
-  /// At the positions `x`; with `scales`, those of the mean dilatation, which is taken `means` times.
-  template <class X, class E>
-  BodyState(const B& all_bonds, const VectorView<X, B::dimension>& x, const typename B::template Slots<1>* scales,
-            int means, const E& execute)
+  /// At the positions `x`; with `scales`, those of the mean dilatation of `terms`.
+  template <class... Terms, class X, class E>
+  BodyState(const B& all_bonds, const std::tuple<Terms...>& terms, const VectorView<X, B::dimension>& x,
+            const typename B::template Slots<1>* scales, const E& execute)
       : bonds(all_bonds), positions(all_bonds.size()), F(all_bonds.size()) {
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = x[i].template cast<double>();
     deformation_gradient(bonds, x, matrices(F), execute);
-    if (scales != nullptr) theta = mean_dilatations(bonds, F, *scales, means, execute);
+    constexpr int means = PartsOfForce<typename B::Scalar, B::dimension, Terms...>::means;
+    if (scales != nullptr) theta = mean_dilatations(bonds, terms, F, *scales, means, execute);
   }
   [[nodiscard]] ParticleState<B> particle(std::size_t i) const { return {i, bonds, positions, F, theta}; }
 
@@ -178,8 +182,7 @@ template <Bonds B, class... Terms, class X, PerParticle Vol, class E>
                                                      const VectorView<X, B::dimension>& x, const Vol& volume,
                                                      const E& execute) {
   constexpr std::size_t N = sizeof...(Terms);
-  constexpr int means = PartsOfForce<typename B::Scalar, B::dimension, Terms...>::means;
-  const BodyState<B> body(bonds, x, scales, means, execute);
+  const BodyState<B> body(bonds, terms, x, scales, execute);
   using Energies = std::array<double, N>;
   const Energies sum = reduce(
       bonds.size(), Energies{},

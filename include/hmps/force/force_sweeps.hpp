@@ -82,13 +82,14 @@ class ForceSweeps {
     }
   }
 
-  /// First sweep of the mean dilatation: F, stored in the memory of the coupling, and v d (J - 1).
+  /// First sweep of the mean dilatation: F, stored in the memory of the coupling, and v d (J - G).
   void dilate(const B& bonds, std::size_t block) {
     const std::size_t slot = block * B::width;
     const Matrix<T, D> F =
         detail::deformation_gradient_lanes(bonds, block, displacement_, bonds.shape_inverse_lanes(block));
     for (int k = 0; k < D * D; ++k) coupling_.store(static_cast<std::size_t>(k), slot, F(k % D, k / D));
-    dilatation_.store(0, slot, carried_scale(bonds, block) * (determinant(F) - T(1)));
+    const T growth = growth_of<K, D, T>(terms_, BlockParameters<K, D>(bonds, block));
+    dilatation_.store(0, slot, carried_scale(bonds, block) * (determinant(F) - growth));
   }
   /// Second sweep of the mean dilatation: v d U'(theta).
   void press(const B& bonds, std::size_t block) {
@@ -291,7 +292,7 @@ class ForceSweeps {
   typename B::template Slots<std::size_t{damps ? D : 0}> velocity_;
   typename B::template Slots<std::size_t{couples ? D * D + 1 : 0}> coupling_;                // M, c
   typename B::template Slots<std::size_t{Parts::damps_each ? 1 : 0}> damping_each_;          // d
-  typename B::template Slots<std::size_t{dilates ? 1 : 0}> dilatation_, pressure_, scales_;  // d (J - 1), d U', d
+  typename B::template Slots<std::size_t{dilates ? 1 : 0}> dilatation_, pressure_, scales_;  // d (J - G), d U', d
   K damping_ = 0;
 };
 

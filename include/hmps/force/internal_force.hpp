@@ -194,7 +194,7 @@ class InternalForce {
     require_size(stress, now.size(), "stresses");
     require_apart(stress, "stresses", x, "positions");
     require_finite(x, "the position");
-    const detail::BodyState<B> body(now, x, scales(), Sweeps::means, execute);
+    const detail::BodyState<B> body(now, sweeps_.terms(), x, scales(), execute);
     const auto P = detail::stresses(body, sweeps_.terms(), scales(), execute);
     execute(now.size(), [&](std::size_t i) { stress.set(i, measure(P[i], body.F[i])); });
     detail::require_finite_result<D>(stress, body.F, name);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
+#include <tuple>
 #include <type_traits>
 
 #include "hmps/bonds/bonds.hpp"
@@ -34,6 +36,23 @@ struct RequireTerm<Term, K, D> {
   static constexpr bool value = Term::template serves<K, D>();
 };
 
+/// A `DilatationTerm` of tissue that grows.
+template <class Term, class K, int D>
+concept GrowingTerm = DilatationTerm<Term, K, D> && requires(const Term& term, const BlockParameters<K, D>& particles) {
+  { term.grown(particles) } -> std::convertible_to<Lanes<K>>;
+};
+
+/// The growth G of `MeanDilatation` of `at`, a block of particles or one: that of the term that grows, otherwise 1.
+template <class K, int D, class G, class At, class... Terms>
+[[nodiscard]] HMPS_INLINE G growth_of(const std::tuple<Terms...>& terms, const At& at) {
+  G growth(1);
+  const auto take = [&](const auto& term) HMPS_INLINE_LAMBDA {
+    if constexpr (GrowingTerm<std::remove_cvref_t<decltype(term)>, K, D>) growth = static_cast<G>(term.grown(at));
+  };
+  std::apply([&](const auto&... term) HMPS_INLINE_LAMBDA { (take(term), ...); }, terms);
+  return growth;
+}
+
 /// What a set of terms needs.
 template <class K, int D, class... Terms>
 struct PartsOfForce {
@@ -41,6 +60,9 @@ struct PartsOfForce {
   static constexpr int means = std::max({0, means_of<Terms, K, D>()...});
   static_assert(((!DilatationTerm<Terms, K, D> || means_of<Terms, K, D>() == means) && ...),
                 "hmps: all terms of the mean dilatation in a force must take the mean equally often, once or twice");
+  static_assert(!(GrowingTerm<Terms, K, D> || ...) || (int(DilatationTerm<Terms, K, D>) + ...) == 1,
+                "hmps: the mean dilatation of tissue that grows must be the only term of the mean dilatation in its "
+                "force; add the bulk moduli");
   static constexpr bool couples = dilates || (CouplingTerm<Terms, K, D> || ...);
   static constexpr bool pairs = (PairTerm<Terms, K, D> || ...);
   static constexpr bool displaces = couples || pairs;

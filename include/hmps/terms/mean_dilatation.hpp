@@ -20,6 +20,9 @@
 
 namespace hmps::inline HMPS_ABI {
 
+/// In place of the growth of a `MeanDilatation` whose tissue does not grow.
+struct NoGrowth {};
+
 /// Resists volume changes of neighbourhoods instead of single particles, so that thin, nearly incompressible bodies
 /// bend correctly (mean dilatation; for finite elements: Nagtegaal, Parks and Rice 1974).
 ///
@@ -44,40 +47,71 @@ namespace hmps::inline HMPS_ABI {
 /// pressure likewise. In walls of two layers that lie on no lattice, the means of the two sides differ by a fifth of
 /// the change that bending causes, so that nearly incompressible walls still lock; taken twice, they differ by a
 /// thirtieth (see `thin_wall_stabiliser`).
-template <class Bulk, int Means = 1>
+///
+/// Tissue that grows to G = det F_g times its volume, F_g the growth tensor of its law, resists only the rest of the
+/// change: with `growth` G
+///
+///     theta_i = d_i sum_k d_k (J_k - G_k),    energy V sum_i G_i U(theta_i / G_i),    p_i = d_i sum_k d_k U'(theta_k /
+///     G_k)
+///
+/// and M as above. The penalty is on J / G - 1 where neighbours grow alike, K is the bulk modulus of the grown tissue,
+/// and where neighbours grow by different amounts, a uniform pressure is preserved as without growth. G = J everywhere
+/// is free of stress. Without `growth`, G = 1 costs nothing.
+template <class Bulk, int Means = 1, class Growth = NoGrowth>
 struct MeanDilatation {
   static_assert(Means == 1 || Means == 2, "hmps: the mean of the dilatation is taken once or twice");
   static constexpr int means = Means;
+  static constexpr bool grows = !std::is_same_v<Growth, NoGrowth>;
   Bulk bulk;
+  Growth growth = {};
+
+  /// G of a particle or a block of them.
+  template <class At>
+  requires(grows) [[nodiscard]] HMPS_INLINE auto grown(const At& particles) const {
+    return detail::value_at(growth, particles);
+  }
 
   /// U'(theta) in Pa.
   template <class K, int D>
   [[nodiscard]] HMPS_INLINE Lanes<K> pressure(const BlockOfParticles<K, D>& particles,
                                               const Lanes<K>& mean_dilatation) const {
     const Lanes<K> own = detail::value_at(bulk, particles);
-    return own * mean_dilatation;
+    if constexpr (grows)
+      return own * mean_dilatation / Lanes<K>(grown(particles));
+    else
+      return own * mean_dilatation;
   }
 
-  /// U(theta) in J/m3.
+  /// G U(theta / G) in J/m3 of the reference volume.
   template <class Particle>
   [[nodiscard]] double energy(const Particle& particle) const {
-    const double theta = particle.mean_dilatation();
-    return static_cast<double>(detail::value_at(bulk, particle)) * 0.5 * theta * theta;
+    return 0.5 * pressure(particle) * particle.mean_dilatation();
   }
 
-  /// U'(theta) in Pa.
+  /// U'(theta / G) in Pa.
   template <class Particle>
   [[nodiscard]] double pressure(const Particle& particle) const {
-    return static_cast<double>(detail::value_at(bulk, particle)) * particle.mean_dilatation();
+    const double own = static_cast<double>(detail::value_at(bulk, particle)) * particle.mean_dilatation();
+    if constexpr (grows)
+      return own / static_cast<double>(grown(particle));
+    else
+      return own;
   }
 
-  /// Throws `InputError` if the bulk modulus is a view of the wrong size.
-  void check(std::size_t size) const { detail::require_quantity(bulk, size, "bulk moduli of mean_dilatation"); }
-  /// Throws `InputError` for a bulk modulus that is negative or not finite.
+  /// Throws `InputError` if the bulk modulus or the growth is a view of the wrong size.
+  void check(std::size_t size) const {
+    detail::require_quantity(bulk, size, "bulk moduli of mean_dilatation");
+    detail::require_quantity(growth, size, "ratios of growth of mean_dilatation");
+  }
+  /// Throws `InputError` for a bulk modulus that is negative and a growth that is not positive, or not finite.
   template <class K, int D>
-  requires(!std::is_arithmetic_v<Bulk>) void check_parameters(const BlockOfParticles<K, D>& particles) const {
+  requires(!std::is_arithmetic_v<Bulk> ||
+           (grows &&
+            !std::is_arithmetic_v<Growth>)) void check_parameters(const BlockOfParticles<K, D>& particles) const {
     detail::require_values<K, D>(particles, Lanes<K>(detail::value_at(bulk, particles)),
                                  "bulk modulus of mean_dilatation", "Pa");
+    if constexpr (grows)
+      detail::require_values<K, D>(particles, Lanes<K>(grown(particles)), "growth of mean_dilatation", "times", true);
   }
 };
 
@@ -119,6 +153,20 @@ template <int Means = 1, class Bulk>
     detail::require(detail::is_finite(bulk) && bulk >= 0, "hmps: the bulk modulus of mean_dilatation is ", bulk,
                     " Pa; it must not be negative");
   return {std::move(bulk)};
+}
+/// The same for tissue that grows. `growth` is the ratio G of the volumes after and before growth, 1 without growth: a
+/// number, a view or a callable, for growth tensors F_g per particle
+///
+///     mean_dilatation(bulk, [&](const auto& at) { return determinant(at(matrices(growth))); })
+///
+/// Views are read at each evaluation, so that growth may proceed. Throws `InputError` for a growth that is not positive
+/// or not finite, as for bulk moduli. A force with such a term may hold no other term of the mean dilatation.
+template <int Means = 1, class Bulk, class Growth>
+[[nodiscard]] MeanDilatation<Bulk, Means, Growth> mean_dilatation(Bulk bulk, Growth growth) {
+  if constexpr (std::is_arithmetic_v<Growth>)
+    detail::require(detail::is_finite(growth) && growth > 0, "hmps: the growth of mean_dilatation is ", growth,
+                    " times the volume; it must be positive, 1 without growth");
+  return {mean_dilatation<Means>(std::move(bulk)).bulk, std::move(growth)};
 }
 
 namespace detail {

@@ -176,7 +176,8 @@ concept DampingOfEachTerm =
 
 /// A term whose energy U depends on the mean dilatation theta of a particle and its neighbours:
 /// `term.pressure(particles, theta)` is dU/dtheta in Pa. The constant `Term::means`, 1 or 2, says how often the mean is
-/// taken; once if there is none. Satisfied by `MeanDilatation`.
+/// taken; once if there is none. With `term.grown(particles)`, of a `BlockParameters` or a `OneParticle`, the tissue
+/// grows, as in `MeanDilatation`. Satisfied by `MeanDilatation`.
 template <class Term, class K, int D>
 concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>& particles, const Lanes<K>& theta) {
   { term.pressure(particles, theta) } -> std::convertible_to<Lanes<K>>;
