@@ -193,13 +193,14 @@ template <class T>
 
 }  // namespace hmps::inline HMPS_ABI
 
-/// Tells Eigen that lanes are numbers.
+/// Tells Eigen that lanes are numbers, and by `Literal` that it may turn a plain number beside a matrix of them into
+/// lanes: `mu * S` and `S / mu` with `double mu`.
 template <class T>
 struct Eigen::NumTraits<hmps::Lanes<T>> : Eigen::GenericNumTraits<hmps::Lanes<T>> {
   using Real = hmps::Lanes<T>;
   using NonInteger = hmps::Lanes<T>;
   using Nested = hmps::Lanes<T>;
-  using Literal = T;
+  using Literal = hmps::Lanes<T>;
   enum {
     IsComplex = 0,
     IsInteger = 0,

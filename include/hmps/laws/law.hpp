@@ -32,7 +32,7 @@ concept TensorLike = std::same_as<typename std::remove_cvref_t<M>::Scalar, T> &&
 /// `C` is the right Cauchy-Green tensor F^T F and `J` is det F with its sign, which `C` alone does not determine. For
 /// `D = 2` both are those of plane strain (F33 = 1). Satisfied by `MooneyRivlin`, `NeoHookean` and
 /// `SaintVenantKirchhoff`, or by a small struct of your own. A law that is a template over `T` with only + - * / on
-/// values of `T` also runs on packs of lanes.
+/// values of `T` also runs on packs of lanes; plain numbers may stand beside `T` and its tensors, as in `mu * C`.
 template <class Law, class T = double, int D = 3>
 concept HyperelasticLaw = requires(const Law& law, const Matrix<T, D>& C, const T& J) {
   { law.second_piola_kirchhoff(C, J) } -> detail::TensorLike<T, D>;

@@ -139,4 +139,20 @@ TYPED_TEST(LanesOf, WorkInsideEigenMatrices) {
   }
 }
 
+TYPED_TEST(LanesOf, AreMultipliedByPlainNumbersInsideEigenMatrices) {
+  using T = TypeParam;
+  using L = hmps::Lanes<T>;
+  using M = Eigen::Matrix<L, 2, 2, Eigen::DontAlign>;
+  M m;
+  m << L(1), this->ramp(0, 1), L(3), L(4);
+  const double number = 1.1;
+  M by = m;
+  by *= number;
+  for (const M& product : {M(number * m), M(m * number), M(11 * m / 10.0 * 1.0F), by})
+    for (int l = 0; l < L::width; ++l)
+      EXPECT_NEAR(product(0, 1).lane[l], T(1.1) * static_cast<T>(l), 4 * std::numeric_limits<T>::epsilon() * T(32));
+  const M quotient = m / 2;
+  for (int l = 0; l < L::width; ++l) EXPECT_EQ(quotient(0, 1).lane[l], static_cast<T>(l) / 2);
+}
+
 }  // namespace lanes_test

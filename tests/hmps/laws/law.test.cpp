@@ -38,6 +38,15 @@ struct UsersLaw {
   double bulk_modulus() const { return lambda + 2 * mu / 3; }
   double shear_modulus() const { return mu; }
 };
+/// The same in formulas of whole tensors with plain parameters.
+struct TensorLaw : UsersLaw {
+  template <class T, int D>
+  Matrix<T, D> second_piola_kirchhoff(const Matrix<T, D>& C, const T& J) const {
+    using std::log;
+    const Matrix<T, D> back = inverse(C), unit = Matrix<T, D>::Identity();
+    return mu * (unit - back) + lambda * log(J) * back * 2 / 2.0;
+  }
+};
 /// A law that serves double in three dimensions only, and forces only.
 struct PlainLaw {
   Matrix<double, 3> first_piola_kirchhoff(const Matrix<double, 3>& F) const { return F; }
@@ -67,6 +76,18 @@ TYPED_TEST(LawOf, TreatsUserLawsLikeThoseOfTheLibrary) {
   if constexpr (std::is_same_v<T, double>) {
     law_checks::stress_is_derivative_of_energy<D>(law, law_checks::deformations<D>());
     law_checks::has_its_moduli<D>(law);
+  }
+}
+
+// Earlier, numbers beside tensors of lanes did not compile: they had to be written as T(mu).
+TYPED_TEST(LawOf, TakesPlainNumbersBesideTensors) {
+  using T = typename TypeParam::Scalar;
+  constexpr int D = TypeParam::D;
+  const TensorLaw law{{1000, 3000}};
+  law_checks::runs_on_lanes<T, D>(law, law_checks::deformations<D>());
+  for (const Matrix<double, D>& F : law_checks::deformations<D>()) {
+    const Matrix<double, D> P = first_piola_kirchhoff(law, F), same = first_piola_kirchhoff(UsersLaw{1000, 3000}, F);
+    EXPECT_LE((P - same).norm(), 1e-12 * (1000 + same.norm()) * F.inverse().squaredNorm());
   }
 }
 
