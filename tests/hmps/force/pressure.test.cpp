@@ -11,17 +11,22 @@
 #include <utility>
 #include <vector>
 
+#include "hmps/analysis/relaxation.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/deformation_gradient.hpp"
 #include "hmps/force/internal_force.hpp"
+#include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/neo_hookean.hpp"
 #include "hmps/particles/fitted.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/support.hpp"
 #include "hmps/shapes/combine.hpp"
 #include "hmps/shapes/implicit.hpp"
+#include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
+#include "hmps/terms/record.hpp"
+#include "hmps/terms/shear_wave_modulus.hpp"
 
 namespace pressure_test {
 
@@ -91,6 +96,38 @@ TEST(Pressure, IsInEquilibriumWithAUniformStress) {
   EXPECT_LE(left, 1e-10 * largest);
 }
 
+// A column under a uniaxial stress is in equilibrium with the pressure on its ends, particle by particle, if that acts
+// along them only; otherwise the ends also press on the sides.
+TEST(Pressure, OfADirectionIsInEquilibriumWithAUniaxialStress) {
+  Scene s;
+  const hmps::LinearElastic<> law = hmps::LinearElastic<>::from_young_poisson(20e3, 0.4);
+  Tensor F = Vector(1.04, 1.04, 0.9).asDiagonal();  // Poisson's ratio is 0.4
+  s.deform(F);
+  const double p = 0.1 * 20e3 / (1.04 * 1.04);
+  auto force = hmps::internal_force(s.bonds, hmps::elastic(law));
+  const auto left = [&](const auto&... direction) {
+    std::vector<Vector> f(s.reference.size());
+    force(hmps::vectors(s.position), hmps::vectors(f));
+    double largest = 0;
+    for (const Vector& own : f) largest = std::max(largest, own.norm());
+    for (const double side : {1.0, -1.0}) {
+      const hmps::Pressure<3> face(s.bonds, s.set([&](const Vector& X) { return side * (X[2] - 0.0025) > 0.0005; }),
+                                   side * direction...);
+      face.add(hmps::matrices(s.gradient), hmps::vectors(f), p);
+      EXPECT_LE((face.area(volume) - Vector(0, 0, side * 0.006 * 0.008)).norm(), 1e-12 * 0.006 * 0.008);
+    }
+    double most = 0;
+    for (const Vector& own : f) most = std::max(most, own.norm());
+    return most / largest;
+  };
+  EXPECT_LE(left(Vector(0, 0, 3)), 1e-10);
+  EXPECT_GT(left(), 0.1);
+  const auto top = s.set([](const Vector& X) { return X[2] > 0.003; });
+  EXPECT_THROW(hmps::Pressure(s.bonds, top, Vector(Vector::Zero())), hmps::InputError);
+  EXPECT_THROW(hmps::Pressure(s.bonds, top, Vector(0, 0, -1)), hmps::InputError);
+  EXPECT_THROW(hmps::Pressure(s.bonds, top, Vector(1, 0, 0)), hmps::InputError);
+}
+
 // The two faces of a wall of fewer than four layers share their particles: with two layers, no force was left.
 TEST(Pressure, RefusesWallsWhoseFacesCancel) {
   for (const int layers : {1, 2, 3, 4, 5, 8}) {
@@ -108,6 +145,74 @@ TEST(Pressure, RefusesWallsWhoseFacesCancel) {
     else
       EXPECT_THROW(make(), hmps::InputError) << layers;  // one layer does not even span space
   }
+}
+// With bonds of two spacings each face lies in four layers. Earlier, four layers were enough for any bonds, and the
+// area of five was 21 % too large.
+TEST(Pressure, RefusesWallsThatAreThinForLongBonds) {
+  const auto make = [](int layers, double ratio, int loaded) {
+    const double top = layers * l0;
+    const hmps::Box<double, 3> box{Vector::Zero(), Vector(0.012, 0.013, top)};
+    const auto wall = hmps::fill_lattice(box, box, l0, Vector(Vector::Constant(l0 / 2)));
+    const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(wall), {.spacing = l0, .radius_ratio = ratio});
+    const hmps::Pressure face(
+        bonds, hmps::ParticleSet(wall.size(), [&](std::size_t i) { return wall[i][2] > top - loaded * l0; }));
+    return (face.area(volume) - Vector(0, 0, 0.012 * 0.013)).norm() / (0.012 * 0.013);
+  };
+  for (const int layers : {4, 5, 6, 7}) EXPECT_THROW(make(layers, 2.6, 4), hmps::InputError) << layers;
+  for (const int layers : {8, 9}) EXPECT_LE(make(layers, 2.6, 4), 1e-9) << layers;
+  EXPECT_THROW(make(11, 3.1, 6), hmps::InputError);
+  EXPECT_LE(make(12, 3.1, 6), 1e-9);
+}
+struct LogarithmicLaw {
+  double mu, lambda;
+  template <class T, int D>
+  [[nodiscard]] hmps::Matrix<T, D> second_piola_kirchhoff(const hmps::Matrix<T, D>& C, const T& J) const {
+    using std::log;
+    const hmps::Matrix<T, D> unit = hmps::Matrix<T, D>::Identity();
+    return mu * unit + (lambda * log(J) - mu) * hmps::inverse(C);
+  }
+};
+// The error of the shortening of a column under a pressure on its end, relative to the exact uniaxial solution, in
+// which 10 kPa (b - 1 / b) + 40 kPa log(a a b) / b = -8 kPa a a and the stress across vanishes: b = 0.7296.
+TEST(Pressure, ShortensAColumnAsStated) {
+  constexpr double h = 2e-3, width = 0.012, height = 0.02, p = 8e3, exact = 0.7296;
+  const auto reference = hmps::fill_lattice(hmps::Box<double, 3>{Vector::Zero(), Vector(width, width, height)}, h,
+                                            Vector(Vector::Constant(h / 2)));
+  const std::size_t n = reference.size();
+  const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(reference), {.spacing = h});
+  std::vector<Tensor> gradient(n);
+  const auto F = hmps::matrices(gradient);
+  auto internal = hmps::internal_force(bonds, hmps::elastic(LogarithmicLaw{10e3, 40e3}),
+                                       hmps::artificial(hmps::shear_wave_modulus(10e3)), hmps::record(F));
+  const hmps::ParticleSet top(n, [&](std::size_t i) { return reference[i][2] > height - 2 * h; });
+  const auto error = [&](const hmps::Pressure<3>& pressure) {
+    std::vector<Vector> x = reference, v = x, f = x;
+    const auto force = [&](const auto& at, const auto& speed, const auto& out) {
+      internal(at, speed, out);
+      pressure.add(F, out, p);
+      Vector mean = Vector::Zero();
+      for (std::size_t i = 0; i < n; ++i) mean += out[i] / static_cast<double>(n);
+      for (std::size_t i = 0; i < n; ++i)  // slides on its base, and does not drift
+        out.add(i, Vector(-mean[0], -mean[1], reference[i][2] < h ? -out[i][2] : 0));
+    };
+    (void)hmps::relax(force, hmps::vectors(x), hmps::vectors(v), hmps::vectors(f), 1000.0,
+                      {.spacing = h, .tolerance = 1e-3, .load = p * width * width});
+    double end = 0, count = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (reference[i][2] > height - h) end += x[i][2], count += 1;
+    return (1 - (end / count - h / 2) / (height - h)) / (1 - exact) - 1;
+  };
+  EXPECT_NEAR(error(hmps::Pressure(bonds, top)), -0.24, 0.005);
+  EXPECT_NEAR(error(hmps::Pressure(bonds, top, Vector(0, 0, 1))), -0.029, 0.005);
+}
+// Only the thickness in the direction of the face matters if that is given.
+TEST(Pressure, OfADirectionLoadsTheEndOfAThinColumn) {
+  const hmps::Box<double, 3> box{Vector::Zero(), Vector(0.003, 0.002, 0.006)};
+  const auto column = hmps::fill_lattice(box, box, l0, Vector(Vector::Constant(l0 / 2)));
+  const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(column), {.spacing = l0});
+  const hmps::ParticleSet end(column.size(), [&](std::size_t i) { return column[i][2] > 0.004; });
+  EXPECT_THROW(hmps::Pressure(bonds, end), hmps::InputError);
+  EXPECT_LE((hmps::Pressure(bonds, end, Vector(0, 0, 1)).area(volume) - Vector(0, 0, 6e-6)).norm(), 1e-15);
 }
 // Layers that lie further apart do not count as more layers.
 TEST(Pressure, CountsTheLayersOfFittedWalls) {
