@@ -5,8 +5,9 @@ nothing too long.
 
 Folders of include/hmps are layers: a header includes headers of its own folder and of those before it in LAYERS. No
 header includes itself by way of others. A folder of benchmarks includes itself and what SHARED says, by its path from
-there. Of benchmarks only the folders INNER use hmps::detail; examples do not. A file has at most MOST_LINES lines, a
-function at most MOST_FUNCTION_LINES.
+there. A header with nothing but hmps::detail is in a folder detail. Of benchmarks only the folders INNER use
+hmps::detail and these headers; examples do not. A file has at most MOST_LINES lines, a function at most
+MOST_FUNCTION_LINES.
 """
 
 import pathlib
@@ -23,6 +24,7 @@ MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 
 QUOTED = re.compile(r'^#include "([^"]+)"', re.M)
+NAMESPACE = re.compile(r"^namespace ([^{;=]+)\{", re.M)
 INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)
 # What opens a block that is no function.
 SCOPE = re.compile(r"\b(namespace|struct|class|union|enum|concept)\b[^;(]*$|=\s*$|\brequires\b[^)]*$|extern \"C\"")
@@ -119,6 +121,8 @@ def check_inner(root):
         for number, line in enumerate(without_comments(path.read_text(encoding="utf-8")).splitlines(), 1):
             if re.search(r"\bhmps::detail\b", line):
                 yield f"{name}:{number} uses hmps::detail, which is for the library alone"
+        for header in re.findall(r"hmps/\w+/detail/\w+\.hpp", path.read_text(encoding="utf-8")):
+            yield f"{name} includes {header}, which is for the library alone"
 
 
 def check(root):
@@ -134,6 +138,9 @@ def check(root):
         if folder not in LAYERS:
             problems.append(f"include/{name}: the folder {folder} has no place in LAYERS")
             continue
+        namespaces = NAMESPACE.findall(without_comments(text))
+        if namespaces and all("detail" in each for each in namespaces) and name.split("/")[2] != "detail":
+            problems.append(f"include/{name} has nothing but hmps::detail: it belongs into hmps/{folder}/detail")
         for other in graph[name]:
             target = other.split("/")[1]
             if target in LAYERS and LAYERS.index(target) > LAYERS.index(folder):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Fails unless INCLUDE/hmps/hmps.hpp includes every header beside it once, except those of executors/.
+# Fails unless INCLUDE/hmps/hmps.hpp includes every header beside it once, except those of executors/ and detail/.
 set(umbrella ${INCLUDE}/hmps/hmps.hpp)
 if(NOT EXISTS ${umbrella})
   message(FATAL_ERROR "${umbrella} is missing")
@@ -7,6 +7,7 @@ endif()
 file(GLOB_RECURSE headers RELATIVE ${INCLUDE} ${INCLUDE}/hmps/*.hpp)
 list(REMOVE_ITEM headers hmps/hmps.hpp)
 list(FILTER headers EXCLUDE REGEX "^hmps/executors/")
+list(FILTER headers EXCLUDE REGEX "/detail/")
 
 file(STRINGS ${umbrella} lines REGEX "^#include")
 set(included "")

@@ -2,7 +2,7 @@
 // All neighbours within 1.75 spacings of every particle of a jittered lattice, by a uniform grid that is built in one
 // thread and searched in all: search/grid/ORDER/KIND/PARTICLES/THREADS. The lists are those of `find_neighbours`, but
 // not sorted. Items are particles.
-#include "hmps/search/grid.hpp"
+#include "hmps/search/detail/grid.hpp"
 
 #include <numeric>
 #include <vector>

@@ -8,8 +8,8 @@
 
 #include "hmps/analysis/relaxing_body.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/time/symplectic_euler.hpp"

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <functional>
 
+#include "hmps/analysis/detail/step_search.hpp"
 #include "hmps/analysis/probed_scene.hpp"
 #include "hmps/analysis/stable_step_settings.hpp"
-#include "hmps/analysis/step_search.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"

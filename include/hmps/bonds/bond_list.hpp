@@ -9,20 +9,20 @@
 #include <limits>
 #include <vector>
 
-#include "hmps/bonds/bond_runs.hpp"
 #include "hmps/bonds/bond_settings.hpp"
-#include "hmps/bonds/cloud_order.hpp"
+#include "hmps/bonds/detail/bond_runs.hpp"
+#include "hmps/bonds/detail/cloud_order.hpp"
+#include "hmps/bonds/detail/plausible_spacing.hpp"
 #include "hmps/bonds/own_bonds.hpp"
-#include "hmps/bonds/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
-#include "hmps/core/disjoint_sets.hpp"
+#include "hmps/core/detail/disjoint_sets.hpp"
 #include "hmps/lanes/blocks.hpp"
-#include "hmps/lanes/places.hpp"
-#include "hmps/lanes/volume_shares.hpp"
+#include "hmps/lanes/detail/places.hpp"
+#include "hmps/lanes/detail/volume_shares.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/search/fixed_radius.hpp"
-#include "hmps/search/resolution.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -8,9 +8,9 @@
 
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/spacing.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -11,16 +11,16 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/detail/lattice_rows.hpp"
 #include "hmps/bonds/lattice_cells.hpp"
-#include "hmps/bonds/lattice_rows.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
-#include "hmps/core/disjoint_sets.hpp"
-#include "hmps/core/finite.hpp"
+#include "hmps/core/detail/disjoint_sets.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/search/nearest_spacing.hpp"
-#include "hmps/search/resolution.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

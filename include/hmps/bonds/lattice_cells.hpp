@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/search/nearest_spacing.hpp"
-#include "hmps/search/resolution.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 // Contact between organs: the class MetaballContact and its member functions.
-#include "hmps/contact/contact_checkpoint.hpp"
-#include "hmps/contact/contact_declaration.hpp"
-#include "hmps/contact/contact_evaluate.hpp"
-#include "hmps/contact/contact_forces.hpp"
-#include "hmps/contact/contact_overlaps.hpp"
+#include "hmps/contact/detail/contact_checkpoint.hpp"
+#include "hmps/contact/detail/contact_declaration.hpp"
+#include "hmps/contact/detail/contact_evaluate.hpp"
+#include "hmps/contact/detail/contact_forces.hpp"
+#include "hmps/contact/detail/contact_overlaps.hpp"

@@ -6,7 +6,7 @@
 #include "hmps/contact/metaball.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/lanes/quad.hpp"
+#include "hmps/lanes/detail/quad.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

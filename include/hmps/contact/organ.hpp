@@ -14,11 +14,11 @@
 #include "hmps/contact/friction.hpp"
 #include "hmps/contact/penalty.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/search/grid.hpp"
+#include "hmps/search/detail/grid.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

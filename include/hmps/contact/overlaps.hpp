@@ -12,11 +12,11 @@
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/contact/penetration.hpp"
 #include "hmps/core/abi.hpp"
-#include "hmps/core/finite.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/search/grid.hpp"
+#include "hmps/search/detail/grid.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/central_gradient.hpp"
+#include "hmps/core/detail/central_gradient.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/nearest_spacing.hpp"

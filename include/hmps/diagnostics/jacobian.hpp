@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/diagnostics/recorded.hpp"
+#include "hmps/diagnostics/detail/recorded.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

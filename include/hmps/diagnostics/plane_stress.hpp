@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/core/view_checks.hpp"
-#include "hmps/diagnostics/recorded.hpp"
+#include "hmps/diagnostics/detail/recorded.hpp"
 #include "hmps/laws/law.hpp"
 
 namespace hmps::inline HMPS_ABI {

@@ -11,7 +11,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/core/view_checks.hpp"
-#include "hmps/diagnostics/recorded.hpp"
+#include "hmps/diagnostics/detail/recorded.hpp"
 
 /// Strain for output, from deformation gradients: for one particle, and in the plural for all particles.
 /// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 4;

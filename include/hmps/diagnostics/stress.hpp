@@ -11,9 +11,9 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/diagnostics/detail/recorded.hpp"
 #include "hmps/diagnostics/energy.hpp"
-#include "hmps/diagnostics/recorded.hpp"
-#include "hmps/force/force_stress.hpp"
+#include "hmps/force/detail/force_stress.hpp"
 #include "hmps/laws/law.hpp"
 
 /// Stress for output, from deformation gradients and the law: `cauchy_stress` and `von_mises_stress` for one particle,

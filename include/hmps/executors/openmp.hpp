@@ -7,8 +7,8 @@
 #include <cstddef>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/first_failure.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/first_failure.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

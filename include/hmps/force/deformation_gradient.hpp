@@ -11,8 +11,8 @@
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/lanes/detail/staging.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/staging.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

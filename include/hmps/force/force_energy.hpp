@@ -21,8 +21,8 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/force/deformation_gradient.hpp"
-#include "hmps/force/parts_of_force.hpp"
-#include "hmps/lanes/volume_shares.hpp"
+#include "hmps/force/detail/parts_of_force.hpp"
+#include "hmps/lanes/detail/volume_shares.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {

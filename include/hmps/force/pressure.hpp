@@ -9,10 +9,10 @@
 
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/core/abi.hpp"
-#include "hmps/core/cell_volume.hpp"
+#include "hmps/core/detail/cell_volume.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"

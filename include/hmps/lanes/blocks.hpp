@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/anchored.hpp"
-#include "hmps/core/disjoint_sets.hpp"
+#include "hmps/core/detail/anchored.hpp"
+#include "hmps/core/detail/disjoint_sets.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/lanes/detail/pieces.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/pieces.hpp"
 #include "hmps/lanes/slots.hpp"
 
 namespace hmps::inline HMPS_ABI {

@@ -7,8 +7,8 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
+#include "hmps/lanes/detail/registers.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/registers.hpp"
 
 /// The functions of packs of lanes that laws and terms call, lane by lane.
 namespace hmps::inline HMPS_ABI {

@@ -9,7 +9,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
-#include "hmps/lanes/registers.hpp"
+#include "hmps/lanes/detail/registers.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

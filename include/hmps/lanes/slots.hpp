@@ -7,10 +7,10 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/lanes/aligned_allocator.hpp"
+#include "hmps/lanes/detail/aligned_allocator.hpp"
+#include "hmps/lanes/detail/registers.hpp"
+#include "hmps/lanes/detail/window.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/registers.hpp"
-#include "hmps/lanes/window.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

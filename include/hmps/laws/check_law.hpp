@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/laws/law.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/finite.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/laws/invariants.hpp"
 #include "hmps/laws/law.hpp"
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/text_file.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/text_file.hpp"
 #include "hmps/motion/keyframes.hpp"
 
 namespace hmps::inline HMPS_ABI {

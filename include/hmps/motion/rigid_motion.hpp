@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/direction.hpp"
+#include "hmps/core/detail/direction.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/motion/keyframes.hpp"
 #include "hmps/motion/pose.hpp"

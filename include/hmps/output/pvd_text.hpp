@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/text_file.hpp"
-#include "hmps/output/xml_text.hpp"
+#include "hmps/core/detail/text_file.hpp"
+#include "hmps/output/detail/xml_text.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

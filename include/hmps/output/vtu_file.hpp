@@ -20,16 +20,16 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/text_file.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/text_file.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/output/detail/xml_text.hpp"
 #include "hmps/output/file_replacement.hpp"
 #include "hmps/output/position_field.hpp"
 #include "hmps/output/pvd_text.hpp"
 #include "hmps/output/vtk_field.hpp"
-#include "hmps/output/xml_text.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

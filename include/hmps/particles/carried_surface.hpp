@@ -10,13 +10,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "hmps/bonds/plausible_spacing.hpp"
+#include "hmps/bonds/detail/plausible_spacing.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/particle_set.hpp"
-#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"

@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/wall_layers.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/wall_layers.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

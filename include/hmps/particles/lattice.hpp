@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/search/resolution.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace hmps::inline HMPS_ABI {

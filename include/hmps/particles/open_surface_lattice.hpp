@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/disjoint_sets.hpp"
+#include "hmps/core/detail/disjoint_sets.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/surface_lattice.hpp"
-#include "hmps/shapes/surface_edges.hpp"
+#include "hmps/shapes/detail/surface_edges.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
 

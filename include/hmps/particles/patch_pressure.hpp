@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/cell_volume.hpp"
+#include "hmps/core/detail/cell_volume.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
-#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/particles/carried_surface.hpp"

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
-#include "hmps/bonds/plausible_spacing.hpp"
+#include "hmps/bonds/detail/plausible_spacing.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/central_gradient.hpp"
+#include "hmps/core/detail/central_gradient.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/core/view_checks.hpp"
 #include "hmps/particles/fitted.hpp"
-#include "hmps/search/resolution.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/shapes/implicit.hpp"
 
 namespace hmps::inline HMPS_ABI {

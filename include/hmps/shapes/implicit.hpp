@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/direction.hpp"
+#include "hmps/core/detail/direction.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {

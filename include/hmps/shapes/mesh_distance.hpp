@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/finite.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/triangle_tree.hpp"

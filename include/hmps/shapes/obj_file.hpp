@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/text_file.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/text_file.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/shapes/polygon.hpp"
+#include "hmps/shapes/detail/polygon.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/surface_text.hpp"
 

@@ -7,12 +7,12 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/shapes/detail/pseudonormals.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/isosurface.hpp"
-#include "hmps/shapes/pseudonormals.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
 
 namespace hmps::inline HMPS_ABI {

@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/text_file.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/text_file.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/surface_text.hpp"

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
+#include "hmps/shapes/detail/surface_edges.hpp"
 #include "hmps/shapes/implicit.hpp"
-#include "hmps/shapes/surface_edges.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/direction.hpp"
+#include "hmps/core/detail/direction.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/shapes/implicit.hpp"
 

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/shapes/nearest_on_triangle.hpp"
+#include "hmps/shapes/detail/nearest_on_triangle.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
 namespace hmps::inline HMPS_ABI {

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/lanes/blocks.hpp"
+#include "hmps/lanes/detail/volume_shares.hpp"
 #include "hmps/lanes/lane_math.hpp"
-#include "hmps/lanes/volume_shares.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {

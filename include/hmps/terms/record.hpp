@@ -6,7 +6,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/view.hpp"
-#include "hmps/lanes/staging.hpp"
+#include "hmps/lanes/detail/staging.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI {

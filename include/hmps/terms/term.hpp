@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "hmps/core/abi.hpp"
-#include "hmps/core/finite.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"

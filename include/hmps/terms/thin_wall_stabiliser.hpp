@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/spacing.hpp"
+#include "hmps/core/detail/wall_layers.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
-#include "hmps/core/spacing.hpp"
 #include "hmps/core/types.hpp"
-#include "hmps/core/wall_layers.hpp"
+#include "hmps/terms/detail/wall_column.hpp"
 #include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/shear_wave_modulus.hpp"
-#include "hmps/terms/wall_column.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

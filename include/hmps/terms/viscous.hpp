@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/terms/term.hpp"

@@ -8,11 +8,11 @@
 #include <type_traits>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/finite.hpp"
+#include "hmps/core/detail/step.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
-#include "hmps/core/finite.hpp"
 #include "hmps/core/per_particle.hpp"
-#include "hmps/core/step.hpp"
 #include "hmps/core/view.hpp"
 
 /// Time integration of the equation of motion, \paper{1}: symplectic Euler with a separate kick for contact,

@@ -11,7 +11,7 @@
 
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/internal_force.hpp"
-#include "hmps/lanes/window.hpp"
+#include "hmps/lanes/detail/window.hpp"
 #include "hmps/laws/mooney_rivlin.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"

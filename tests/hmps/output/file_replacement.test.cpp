@@ -10,7 +10,7 @@
 
 #include "../../reference/file_size_limit.hpp"
 #include "../../reference/temporary_folder.hpp"
-#include "hmps/core/text_file.hpp"
+#include "hmps/core/detail/text_file.hpp"
 
 namespace file_replacement_test {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../../reference/temporary_folder.hpp"
-#include "hmps/core/text_file.hpp"
+#include "hmps/core/detail/text_file.hpp"
 
 namespace vtu_file_test {
 
