@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
@@ -12,8 +13,8 @@ namespace hmps::inline HMPS_ABI {
 
 /// The result of `relax`.
 struct Relaxation {
-  /// Unbalanced forces divided by the load: the sum of |f| l0^D over the particles that move, divided by
-  /// `RelaxationSettings::load`.
+  /// Unbalanced forces divided by the load: the sum of |f| V over the particles that move, where V is l0^D or
+  /// `RelaxationSettings::volume`, divided by `RelaxationSettings::load`.
   double residual = 0;
   double load = 0;      ///< in N: as given, or the force on the particles that do not move
   int iterations = 0;   ///< number of steps
@@ -36,6 +37,11 @@ struct RelaxationSettings {
   /// Called after each force evaluation with the current result, for progress reports; may throw to stop the search.
   /// Empty: not called.
   std::function<void(const Relaxation&)> progress = {};
+  /// Whether particle i follows the forces along the axis c, such as `[&](std::size_t i, int c) { return c != 0 ||
+  /// !on_plane[i]; }` for a plane of symmetry across x; along the others it keeps its position. Empty: along all axes.
+  std::function<bool(std::size_t, int)> moves_along = {};
+  /// The volume V of particle i in m^D, for fitted particles that do not have the same. Empty: l0^D.
+  std::function<double(std::size_t)> volume = {};
 };
 
 namespace detail {
@@ -58,17 +64,22 @@ inline void validate(const RelaxationSettings& s) {
                            "exclude the particles that are held, and does the load press it against something?"));
 }
 
-[[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings, bool damped) {
-  throw StateError(
-      message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
-              result.residual, " of the load, ", result.load, " N; allow more max_iterations than ",
-              settings.max_iterations, ", or a larger tolerance than ", settings.tolerance,
-              damped ? "; damping shortened its step: leave viscosity out, and give a contact with friction a longer "
-                       "dt, about the step of relax without friction"
-                     : "",
-              settings.load > 0 ? ""
-                                : "; that load is what the held particles carry: if nothing loads "
-                                  "the body, it is rounding, so give a `load` to compare with"));
+/// `stalled`: more iterations do not help.
+[[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings, bool damped,
+                                           bool stalled) {
+  throw StateError(message(
+      "hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ", result.residual,
+      " of the load, ", result.load, " N; ",
+      stalled ? "they no longer decrease, because they are the rounding of forces or positions in float, or a "
+                "contact opens and closes: use bonds and positions in double"
+              : "if bonds or positions are in float, use double; otherwise allow more max_iterations than ",
+      stalled ? "" : std::to_string(settings.max_iterations), ", or a larger tolerance than ", settings.tolerance,
+      damped ? "; damping shortened its step: leave viscosity out, and give a contact with friction a longer "
+               "dt, about the step of relax without friction"
+             : "",
+      settings.load > 0 ? ""
+                        : "; that load is what the held particles carry: if nothing loads "
+                          "the body, it is rounding, so give a `load` to compare with"));
 }
 
 }  // namespace detail

@@ -6,12 +6,15 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "hmps/analysis/relaxation_settings.hpp"
 #include "hmps/analysis/stable_step.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/cell_volume.hpp"
 #include "hmps/core/detail/finite.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
@@ -22,7 +25,7 @@ namespace hmps::inline HMPS_ABI {
 
 namespace detail {
 
-/// Sums over all particles at one time.
+/// Sums over all particles at one time, of each by its share V / l0^D of a volume.
 struct Unbalanced {
   double moving = 0;   ///< sum of |f| over the particles that move
   double held = 0;     ///< the same over the others
@@ -92,6 +95,33 @@ class RelaxationStep {
   int evaluations_ = 0;
 };
 
+/// Tells whether a relaxation no longer gets closer to rest. While rounding makes the forces, their peaks come every
+/// few steps, with the stiffest motion. Without rounding that motion would have died away by a factor at each of so
+/// many peaks, and the peaks of slower motion would come later.
+class Stalling {
+ public:
+  /// Takes each iteration; true if the last `window` peaks came fast and did not lower the least residual by a fifth.
+  [[nodiscard]] bool update(const Relaxation& now) {
+    if (now.residual < least_) least_ = now.residual;
+    if (now.peaks < start_.peaks + window) return false;
+    const bool fast = now.iterations - start_.iterations < 6 * window, stalled = fast && least_ > 0.8 * before_;
+    start_ = now;
+    before_ = least_;
+    return stalled;
+  }
+
+  /// Throws `StateError` if the search stalls or has made all permitted iterations.
+  void require_progress(const Relaxation& now, const RelaxationSettings& settings, bool damped) {
+    const bool stalled = update(now);
+    if (stalled || now.iterations >= settings.max_iterations) throw_not_at_rest(now, settings, damped, stalled);
+  }
+
+ private:
+  static constexpr int window = 1000;  // peaks
+  Relaxation start_;
+  double least_ = std::numeric_limits<double>::infinity(), before_ = least_;
+};
+
 /// Throws `InputError` if `force` writes nothing to `f` even when all particles are displaced from `x` by about a
 /// thousandth of `spacing` (m): then it does not read the positions that it is given.
 template <class Force, class X, class V, class F, int D>
@@ -151,17 +181,24 @@ class RelaxingBody {
   RelaxingBody(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
                const RelaxationSettings& settings, const E& execute)
       : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
-    for (std::size_t i = 0; i < follows_.size(); ++i) follows_[i] = !settings.moves || settings.moves(i);
-    const auto count = static_cast<std::size_t>(std::count(follows_.begin(), follows_.end(), char(1)));
-    require(count > 0, "hmps: no particle of relax moves; `moves` must be true for some");
-    require(settings.load > 0 || count < follows_.size(),
+    std::size_t count = 0;  // of components that move
+    for (std::size_t i = 0; i < follows_.size(); ++i)
+      for (int c = 0; c < D; ++c) {
+        const bool moves =
+            (!settings.moves || settings.moves(i)) && (!settings.moves_along || settings.moves_along(i, c));
+        follows_[i] = static_cast<char>(follows_[i] | int(moves) << c);
+        count += moves;
+      }
+    if (settings.volume) take_volumes(settings);
+    require(count > 0, "hmps: no particle of relax moves; `moves` and `moves_along` must be true for some");
+    require(settings.load > 0 || count < D * follows_.size(),
             "hmps: every particle of relax moves and no load is given; give the load in N with which unbalanced "
             "forces are compared");
   }
 
-  /// Volume of a particle in m^D.
+  /// l0^D in m^D.
   [[nodiscard]] double volume() const { return volume_; }
-  /// Whether each particle follows the forces.
+  /// Whether each particle follows the forces: bit c along axis c.
   [[nodiscard]] const std::vector<char>& follows() const { return follows_; }
 
   void clear_forces() const {
@@ -175,10 +212,11 @@ class RelaxingBody {
       for (int c = 0; c < D; ++c) v_(i, c) = V(0);
     });
   }
-  /// Sets the velocities of the particles that do not move to zero.
+  /// Sets the velocities of the particles that do not move, and along the axes on which they do not, to zero.
   void hold() const {
     execute_(x_.size(), [&](std::size_t i) {
-      for (int c = 0; c < D && !follows_[i]; ++c) v_(i, c) = V(0);
+      for (int c = 0; c < D; ++c)
+        if (!moves(i, c)) v_(i, c) = V(0);
     });
   }
   /// Moves all particles back along their velocities by `time` (s).
@@ -198,19 +236,36 @@ class RelaxingBody {
   }
   [[nodiscard]] Unbalanced unbalanced() const {
     const auto of = [&](std::size_t i) {
-      const Vector<double, D> push = f_[i].template cast<double>();
-      const double size = push.norm();
       const Vector<double, D> speed = v_[i].template cast<double>();
-      if (!follows_[i]) return Unbalanced{.held = size};
-      return Unbalanced{.moving = size,
-                        .power = push.dot(speed),
-                        .gain = size * size / static_cast<double>(at_particle(rho_, i)),
+      Vector<double, D> push = f_[i].template cast<double>(), held = Vector<double, D>::Zero();
+      for (int c = 0; c < D; ++c)
+        if (!moves(i, c)) std::swap(push[c], held[c]);
+      const double size = push.norm(), share = shares_.empty() ? 1.0 : shares_[i];
+      return Unbalanced{.moving = share * size,
+                        .held = share * held.norm(),
+                        .power = share * push.dot(speed),
+                        .gain = share * size * size / static_cast<double>(at_particle(rho_, i)),
                         .fastest = speed.norm()};
     };
     return reduce(x_.size(), Unbalanced{}, of, Unbalanced::join, execute_);
   }
 
  private:
+  [[nodiscard]] bool moves(std::size_t i, int c) const { return (follows_[i] >> c & 1) != 0; }
+  /// Throws `InputError` for volumes that are not positive or do not fit the spacing.
+  void take_volumes(const RelaxationSettings& settings) {
+    double mean = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const double own = settings.volume(i);
+      require(is_finite(own) && own > 0, "hmps: the volume of particle ", i, " in relax is ", own,
+              "; it must be positive");
+      shares_.push_back(own / volume_);
+      mean += own / static_cast<double>(x_.size());
+    }
+    require_cell_volume<D>(mean, settings.spacing, volume_factor_of_spacing, "the mean volume of the particles",
+                           "the spacing");
+  }
+
   VectorView<X, D> x_;
   VectorView<V, D> v_;
   VectorView<F, D> f_;
@@ -218,6 +273,7 @@ class RelaxingBody {
   const E& execute_;
   double volume_;
   std::vector<char> follows_;
+  std::vector<double> shares_;  // V / l0^D; empty if that is 1
 };
 
 }  // namespace detail

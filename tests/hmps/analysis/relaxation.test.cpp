@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "hmps/bonds/bond_list.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/contact/contact.hpp"
 #include "hmps/contact/spring_friction.hpp"
@@ -396,6 +399,93 @@ TEST(Relax, ReportsFailureToConverge) {
   const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
                            {.spacing = l0, .load = body.weight(), .moves = body.moves()});
   EXPECT_LE(found.residual, 1e-3);
+}
+
+// Earlier, all permitted iterations were made, and the message asked for more of them.
+TEST(Relax, EndsWhereTheForcesOfFloatBondsAreRounding) {
+  const auto settle = [](auto scalar) {
+    Standing<double, 3> body(column<3>(4, 14));
+    const LatticeBonds<decltype(scalar), 3> bonds(vectors(body.reference), {.spacing = l0});
+    auto force = internal_force(bonds, elastic(MooneyRivlin<>::from_young(young, 1e6)), artificial(young));
+    const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                             {.spacing = l0, .load = body.weight(), .moves = body.moves()});
+    return found.iterations;
+  };
+  EXPECT_LT(settle(0.0), 10000);
+  const std::string words = words_of([&] { (void)settle(0.F); });
+  EXPECT_TRUE(has(words, "no longer decrease")) << words;
+  EXPECT_TRUE(has(words, "bonds and positions in double, or a larger tolerance than 0.001")) << words;
+  const auto at = words.find("relax made ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LT(std::stoi(words.substr(at + 11)), 20000) << words;
+}
+
+// Peaks of the stiffest motion that come every other step do not end a search that gets closer, nor slow ones one that
+// does not.
+TEST(Relax, StallsOnlyIfFastPeaksNoLongerLowerTheResidual) {
+  const auto stalls = [](int steps, double shrink) {
+    detail::Stalling stalling;
+    Relaxation now{.residual = 1};
+    for (now.peaks = 0; now.peaks < 5000; ++now.peaks, now.iterations += steps, now.residual *= shrink)
+      if (stalling.update(now)) return true;
+    return false;
+  };
+  EXPECT_TRUE(stalls(2, 1));
+  EXPECT_TRUE(stalls(5, 0.9999));  // 10 % in a window
+  EXPECT_FALSE(stalls(2, 0.9997));
+  EXPECT_FALSE(stalls(7, 1));
+}
+
+// A plane of symmetry: along x the column keeps its place, and what holds it there is a reaction, not unbalanced.
+TEST(Relax, HoldsSingleComponents) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto force = internal_force(body.bonds, elastic(linear), artificial(young));
+  const auto middle = [&](std::size_t i) { return std::abs(body.reference[i][0] - l0) < l0 / 2; };
+  const auto found =
+      relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+            {.spacing = l0, .tolerance = 1e-4, .moves = body.moves(), .moves_along = [&](std::size_t i, int c) {
+               return c != 0 || !middle(i);
+             }});
+  double unbalanced = 0, held = 0, sag = 0;
+  for (std::size_t i = 0; i < body.position.size(); ++i) {
+    Vector<double, 2> moving = body.load[i], kept = Vector<double, 2>::Zero();
+    if (middle(i)) {
+      EXPECT_EQ(body.position[i][0], body.reference[i][0]) << i;
+      std::swap(moving[0], kept[0]);
+    }
+    if (!body.moves()(i)) kept += moving, moving.setZero();
+    unbalanced += moving.norm();
+    held += kept.norm();
+    sag = std::max(sag, body.reference[i][1] - body.position[i][1]);
+  }
+  EXPECT_GT(sag, 1e-4 * l0);
+  EXPECT_NEAR(found.load / (held * body.volume), 1, 1e-12);
+  EXPECT_NEAR(found.residual / (unbalanced / held), 1, 1e-9);
+  EXPECT_LE(found.residual, 1e-4);
+  EXPECT_THROW((void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density,
+                           {.spacing = l0, .load = 1, .moves_along = [](std::size_t, int) { return false; }}),
+               InputError);
+}
+
+// Earlier, each force density counted by l0^D also where particles have other volumes.
+TEST(Relax, WeighsForcesByTheVolumesOfParticles) {
+  Standing<double, 2> body(column<2>(3, 6));
+  std::vector<double> volumes;
+  for (std::size_t i = 0; i < body.position.size(); ++i) volumes.push_back(body.volume * (i % 2 == 0 ? 0.5 : 1.4));
+  const BondList<double, 2> bonds(vectors(body.reference), {.spacing = l0}, scalars(volumes));
+  auto force = internal_force(bonds, elastic(linear), artificial(young));
+  RelaxationSettings settings{.spacing = l0, .moves = body.moves()};
+  settings.volume = [&](std::size_t i) { return volumes[i]; };
+  const auto found = relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings);
+  double unbalanced = 0, held = 0;
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    (body.moves()(i) ? unbalanced : held) += body.load[i].norm() * volumes[i];
+  EXPECT_NEAR(found.load / held, 1, 1e-12);
+  EXPECT_NEAR(found.residual / (unbalanced / held), 1, 1e-12);
+  for (const double bad : {0.0, std::nan(""), l0}) {
+    volumes[3] = bad;
+    EXPECT_THROW((void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density, settings), InputError);
+  }
 }
 
 TEST(Relax, ReportsLoadAndStepIfItDoesNotConverge) {
