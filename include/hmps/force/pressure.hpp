@@ -101,11 +101,12 @@ class Pressure {
 
  private:
   /// Of each area per volume only `part(b)` acts.
-  template <Bonds B, class Part>
-  requires std::invocable < const Part&, const Vector<double, D>
-  & > Pressure(const Part& part, const B& bonds, const ParticleSet& loaded)
+  template <Bonds B, std::invocable<const Vector<double, D>&> Part>
+  Pressure(const Part& part, const B& bonds, const ParticleSet& loaded)
       : size_(bonds.size()),
-  bond_(std::sqrt(bonds.standard_lambda())), particles_(loaded.indices()), area_(particles_.size()) {
+        bond_(std::sqrt(bonds.standard_lambda())),
+        particles_(loaded.indices()),
+        area_(particles_.size()) {
     detail::require_scene(loaded, size_, "under pressure");
     double largest = 0, least = 0;  // |b| at a face is of the order of one over the length of a bond
     for (std::size_t k = 0; k < particles_.size(); ++k) {
