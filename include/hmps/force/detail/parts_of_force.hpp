@@ -60,7 +60,7 @@ struct PartsOfForce {
   static constexpr int means = std::max({0, means_of<Terms, K, D>()...});
   static_assert(((!DilatationTerm<Terms, K, D> || means_of<Terms, K, D>() == means) && ...),
                 "hmps: all terms of the mean dilatation in a force must take the mean equally often, once or twice");
-  static_assert(!(GrowingTerm<Terms, K, D> || ...) || (int(DilatationTerm<Terms, K, D>) + ...) == 1,
+  static_assert(!(GrowingTerm<Terms, K, D> || ...) || (0 + ... + int(DilatationTerm<Terms, K, D>)) == 1,
                 "hmps: the mean dilatation of tissue that grows must be the only term of the mean dilatation in its "
                 "force; add the bulk moduli");
   static constexpr bool couples = dilates || (CouplingTerm<Terms, K, D> || ...);
