@@ -59,9 +59,10 @@ class PolygonSplit {
 
   /// Whether the corners lie in more than two places; in two or one, they are no surface after welding.
   [[nodiscard]] bool has_third_place() const {
-    const auto far = std::ranges::max_element(points_, {}, [](const auto& p) { return p.squaredNorm(); });
-    return std::ranges::any_of(
-        points_, [&](const auto& p) { return p.norm() > polygon_tolerance && (p - *far).norm() > polygon_tolerance; });
+    const auto farthest = std::ranges::max_element(points_, {}, [](const auto& p) { return p.squaredNorm(); });
+    return std::ranges::any_of(points_, [&](const auto& p) {
+      return p.norm() > polygon_tolerance && (p - *farthest).norm() > polygon_tolerance;
+    });
   }
 
   /// Whether the fan covers nothing twice and nothing outside, except for slivers: seen against the normal, no triangle
