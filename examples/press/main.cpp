@@ -24,7 +24,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
 
   // The body is the lattice in its surface, without what hangs by a few bonds or not at all. Behind it comes the plate,
   // above it.
-  const auto [lower, upper] = hmps::bounds(mesh);
+  const Vector lower = hmps::bounds(mesh).lower, upper = hmps::bounds(mesh).upper;
   const double height = upper[2] - lower[2], volume = hmps::volume(mesh), l0 = std::cbrt(volume / particles);
   const auto sites = hmps::fill_lattice(mesh, l0);
   std::vector<Vector> reference;

@@ -20,12 +20,13 @@ LAYERS = ["core", "lanes", "search", "bonds", "laws", "terms", "force", "contact
 SHARED = {"report": [], "scenes": [], "components": [], "hmps": ["components"]}
 STUDY = ["report", "scenes"]
 INNER = ["components", "hmps"]
+# Headers in detail that define a class of the interface, which contact.hpp includes together.
+PARTS_OF_CONTACT = "hmps/contact/detail/contact_"
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 
 QUOTED = re.compile(r'^#include "([^"]+)"', re.M)
-NAMESPACE = re.compile(r"^namespace ([^{;=]+)\{", re.M)
-INCLUDE = re.compile(r'^#include "(hmps/[\w/]+\.hpp)"', re.M)
+INCLUDE = re.compile(r'^#include [<"](hmps/[\w/]+\.hpp)[>"]', re.M)
 # What opens a block that is no function.
 SCOPE = re.compile(r"\b(namespace|struct|class|union|enum|concept)\b[^;(]*$|=\s*$|\brequires\b[^)]*$|extern \"C\"")
 
@@ -98,6 +99,27 @@ def lengths(name, text):
             yield f"{name}:{line}: a function of {length} lines; {MOST_FUNCTION_LINES} are allowed"
 
 
+def outside_detail(text):
+    """What a header declares outside of namespace detail."""
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", without_comments(text), flags=re.M)
+    kept, scopes, begin = [], [], 0  # scopes: True for the namespace detail
+    for k, character in enumerate(text):
+        if character == "{":
+            head = text[begin:k].strip()
+            is_namespace = head.startswith("namespace")
+            if not is_namespace and not any(scopes):
+                kept.append(head)
+            scopes.append(is_namespace and "detail" in head)
+            begin = k + 1
+        elif character in "};":
+            if not any(scopes):
+                kept.append(text[begin:k].strip())
+            if character == "}" and scopes:
+                scopes.pop()
+            begin = k + 1
+    return "".join(kept)
+
+
 def check_benchmarks(root):
     folders = {path.name for path in (root / "benchmarks").iterdir() if path.is_dir()}
     for path in sorted((root / "benchmarks").rglob("*.[hc]pp")):
@@ -121,7 +143,7 @@ def check_inner(root):
         for number, line in enumerate(without_comments(path.read_text(encoding="utf-8")).splitlines(), 1):
             if re.search(r"\bhmps::detail\b", line):
                 yield f"{name}:{number} uses hmps::detail, which is for the library alone"
-        for header in re.findall(r"hmps/\w+/detail/\w+\.hpp", path.read_text(encoding="utf-8")):
+        for header in re.findall(r"hmps/[\w/]*detail/[\w/]+\.hpp", path.read_text(encoding="utf-8")):
             yield f"{name} includes {header}, which is for the library alone"
 
 
@@ -138,9 +160,11 @@ def check(root):
         if folder not in LAYERS:
             problems.append(f"include/{name}: the folder {folder} has no place in LAYERS")
             continue
-        namespaces = NAMESPACE.findall(without_comments(text))
-        if namespaces and all("detail" in each for each in namespaces) and name.split("/")[2] != "detail":
+        declares, inner = outside_detail(text), name.split("/")[2] == "detail"
+        if re.search(r"^namespace ", text, flags=re.M) and not declares and not inner:
             problems.append(f"include/{name} has nothing but hmps::detail: it belongs into hmps/{folder}/detail")
+        if declares and inner and not name.startswith(PARTS_OF_CONTACT):
+            problems.append(f"include/{name} declares something outside hmps::detail: it belongs into hmps/{folder}")
         for other in graph[name]:
             target = other.split("/")[1]
             if target in LAYERS and LAYERS.index(target) > LAYERS.index(folder):

@@ -171,8 +171,12 @@ class ProbedScene {
     const double most = agreement * agreement * dot(direction.stiffness, direction.stiffness);
     if (!(most > 0)) return false;  // all of the motion may have been lost
     Vectors image(size_), other(size_);
-    displace(direction.y, shorter * length_, image);
-    if (apart(image, direction.stiffness) <= most) return true;
+    // A force with a memory, such as friction with a spring, also answers the way from the last state: the second time,
+    // that way is as short.
+    for (int time = 0; time < 2; ++time) {
+      displace(direction.y, shorter * length_, image);
+      if (apart(image, direction.stiffness) <= most) return true;
+    }
     displace(direction.y, 1.1 * shorter * length_, other);
     return apart(image, other) <= most && dot(image, image) > most;
   }

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "hmps/analysis/relaxing_body.hpp"
+#include "hmps/analysis/detail/relaxing_body.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/executor.hpp"

@@ -42,7 +42,7 @@ struct RequireRow {
 /// that component is zero in all lanes and may be skipped; and `row.weight()`, w, zero in lanes without a bond.
 /// `for_each_bond(i, visit)` calls `visit(j, r0, w)` for the bonds of particle i. `last_slot(block)` is the slot from
 /// which the last row reads, as a hint for prefetching. `Slots<N>` stores N numbers per particle: `slots(c, slot)`,
-/// writable, `lanes(c, slot)`, `keep(c, slot, lanes)`, and `bytes()`, its memory. Models: `BondList`, `LatticeBonds`.
+/// writable, `lanes(c, slot)`, `store(c, slot, lanes)`, and `bytes()`, its memory. Models: `BondList`, `LatticeBonds`.
 template <class B>
 concept Bonds = std::derived_from<B, Blocks<typename B::Scalar, B::dimension>> &&
     requires(const B& bonds, typename B::template Slots<1>& slots, const typename B::template Slots<1>& kept,
@@ -66,7 +66,7 @@ struct RequireBonds {
   static_assert(IsBonds<B>::value,
                 "hmps: bonds need to be derived from Blocks<K, D> and to have for_each_row(block, visit), "
                 "for_each_bond(i, visit) and last_slot(block), const, and Slots<N> with a writable slots(c, slot), "
-                "lanes(c, slot), keep(c, slot, lanes) and bytes(); see Bonds");
+                "lanes(c, slot), store(c, slot, lanes) and bytes(); see Bonds");
 };
 }  // namespace detail
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
+#include "hmps/bonds/detail/lattice_cells.hpp"
 #include "hmps/bonds/detail/lattice_rows.hpp"
-#include "hmps/bonds/lattice_cells.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"

@@ -33,7 +33,7 @@ class NormalDensity {
   /// `spacing` is l0 in m. Throws `InputError` unless it is positive and finite, for a kernel that forms no wall, and
   /// for one whose slope is not the derivative of its value: forces would not point out of the wall.
   explicit NormalDensity(S spacing) : spacing_(spacing) {
-    detail::require_spacing(spacing, "a metaball wall");
+    detail::require_spacing(static_cast<double>(spacing), "a metaball wall");
     require_slope();
     find_deepest();
     const double top = in_spacings(deepest_);

@@ -20,8 +20,8 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/lanes/detail/pieces.hpp"
+#include "hmps/lanes/detail/slots.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/slots.hpp"
 
 namespace hmps::inline HMPS_ABI {
 

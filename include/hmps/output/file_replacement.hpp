@@ -16,8 +16,9 @@ namespace hmps::inline HMPS_ABI {
 
 /// Replaces the contents of the file at `path` with `bytes`, or makes it: writes them beside it as `path`.part, which
 /// it then renames, so that a reader finds either the whole old file or the whole new one, even if the program is
-/// killed meanwhile. Follows a symbolic link at `path`, but replaces whatever file or link bears the temporary name. On
-/// an error the old file remains, and the temporary one does not.
+/// killed meanwhile. Follows symbolic links at `path`, also to a file that does not exist yet, but replaces whatever
+/// file or link bears the temporary name. On an error the old file remains, and the temporary one does not. Only one
+/// writer at a time may replace a file.
 ///
 /// Does not wait until the data are on the disk: a loss of power may cost the latest files. For a file that must
 /// outlast it, such as a checkpoint, `before_rename` can flush the temporary file, whose name it is given, to the disk;
@@ -32,9 +33,11 @@ inline void replace_file(std::filesystem::path path, std::string_view bytes,
   const std::filesystem::file_status status = std::filesystem::status(path, problem);
   detail::require(!std::filesystem::exists(status) || std::filesystem::is_regular_file(status), "hmps: cannot replace ",
                   path.string(), ": it is not a regular file; give the name of a file");
-  if (std::filesystem::is_symlink(path, problem)) {
-    const std::filesystem::path target = std::filesystem::weakly_canonical(path, problem);
-    if (!problem) path = target;
+  constexpr int most_links = 40;
+  for (int links = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, problem)); ++links) {
+    detail::require(links < most_links, "hmps: cannot replace ", path.string(),
+                    ": links lead in a circle; remove them");
+    path = path.parent_path() / std::filesystem::read_symlink(path, problem);  // an absolute target replaces the folder
   }
   std::filesystem::path temporary = path;
   temporary += ".part";

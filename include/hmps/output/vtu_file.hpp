@@ -228,6 +228,8 @@ class VtuSeries {
     if (settings.resume_at) resume(*settings.resume_at);
     std::error_code problem;
     std::filesystem::create_directories(path_.parent_path(), problem);
+    detail::require(!problem, "hmps: cannot make the folder ", path_.parent_path().string(), ": ", problem.message(),
+                    "; check its permissions");
     replace_file(path_, pvd_text(frames_));
   }
 

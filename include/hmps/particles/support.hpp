@@ -10,7 +10,7 @@
 
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/detail/plausible_spacing.hpp"
-#include "hmps/bonds/lattice_cells.hpp"
+#include "hmps/bonds/detail/lattice_cells.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"

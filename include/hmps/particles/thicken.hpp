@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "hmps/bonds/lattice_cells.hpp"
+#include "hmps/bonds/detail/lattice_cells.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"

@@ -116,7 +116,7 @@ class ObjParser {
     place_.line = face.line;
     if (parts.fault() == PolygonFault::no_area)
       place_.fail("a face of ", polygon_.size(),
-                  " corners encloses no area: they lie on one line, or its border crosses itself; delete the face, or "
+                  " corners encloses no area, because its border crosses itself; delete the face, or "
                   "triangulate it in a mesh editor");
     if (parts.fault() == PolygonFault::crosses_itself)
       place_.fail("the border of a face of ", polygon_.size(),

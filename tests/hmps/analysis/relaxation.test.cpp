@@ -616,4 +616,18 @@ TEST(Relax, BadInputIsRefused) {
   EXPECT_THROW(call({.spacing = l0, .load = 1}), InputError);
 }
 
+// Earlier, a body that drag slows down was taken for one that rounding keeps from rest.
+TEST(Relax, IsPatientWithDrag) {
+  using P = Vector<double, 2>;
+  for (const double drag : {1e5, 1e6, 3e6}) {
+    std::vector<P> x{{0, 0}, {1e-3, 0}, {2e-3, 0}, {3e-3, 0}}, v(4, P::Zero()), f(v);
+    const std::vector<P> X = x;
+    const auto force = [&](const auto& at, const auto& speed, const auto& out) {
+      for (std::size_t i = 0; i < 4; ++i) out.add(i, P(-1e6 * (at[i] - X[i] - P(1e-4, 0)) - drag * speed[i]));
+    };
+    const RelaxationSettings settings{.spacing = 1e-3, .tolerance = 1e-2, .load = 4e-4};
+    EXPECT_NO_THROW((void)relax(force, vectors(x), vectors(v), vectors(f), 1000.0, settings)) << drag;
+  }
+}
+
 }  // namespace relaxation_test

@@ -366,8 +366,8 @@ TEST(StableStep, SeesViscosityThroughFloatBondsOfAMovingBody) {
     const auto step = [&](const auto& bonds, double speed, double angle) {
       std::vector<Vector<double, 3>> x = X, v(X.size(), speed * Vector<double, 3>(3, -2, 1));
       for (Vector<double, 3>& at : x) at = Eigen::AngleAxisd(angle, Vector<double, 3>::UnitY()) * at;
-      auto force = internal_force(bonds, elastic(MooneyRivlin<>::from_young(20e3, 1e6)), artificial(10e3),
-                                  viscous(rho, nu));
+      auto force =
+          internal_force(bonds, elastic(MooneyRivlin<>::from_young(20e3, 1e6)), artificial(10e3), viscous(rho, nu));
       return stable_step(force, vectors(x), vectors(v), rho, {.spacing = l0});
     };
     const StableStep right = step(exact, 0, 0);
@@ -420,6 +420,43 @@ TEST(StableStep, ResolvesFloatContactFarFromTheOrigin) {
   };
   const double right = limit(0.0, 0);
   for (const double away : {0., 0.5, 5.}) EXPECT_NEAR(limit(0.0F, away), right, 0.01 * right) << away;
+}
+
+// Friction with a spring also answers the way from the previous trial state, which is not stiffness.
+TEST(StableStep, KeepsShortTrialMotionsForFrictionWithAMemory) {
+  const double l0 = 1e-3, rho = 1000;
+  std::vector<Vector<double, 3>> x;
+  const auto add = [&](int across, double from, double height) {
+    for (int i = 0; i < across; ++i)
+      for (int j = 0; j < across; ++j)
+        for (int k = 0; k < 3; ++k) x.push_back(l0 * Vector<double, 3>(from + i, from + j, height + k));
+  };
+  add(8, 0, 0);
+  const std::size_t first = x.size(), all = first + 48;
+  add(4, 1.8, 2.99);
+  std::vector<Index> plate, block;
+  for (std::size_t i = 0; i < all; ++i)
+    if (i < first ? x[i][2] > 0.5 * l0 : x[i][2] < 4.5 * l0)
+      (i < first ? plate : block).push_back(static_cast<Index>(i));
+  const LatticeBonds<double, 3> below(vectors(x).part(0, first), {.spacing = l0}),
+      above(vectors(x).part(first, all - first), {.spacing = l0});
+  const auto tissue = MooneyRivlin<>::from_young(20e3, 50e3);
+  auto force_below = internal_force(below, elastic(tissue)), force_above = internal_force(above, elastic(tissue));
+  const std::vector<Vector<double, 3>> v(all, Vector<double, 3>::Zero());
+  const auto found = [&](double perturbation) {
+    MetaballContact<double, 3> contact({.spacing = l0, .density = rho, .friction = 0.3});
+    contact.add_pair(contact.add_organ({"plate", plate, plate}), contact.add_organ({"block", block, block}));
+    const auto force = [&](const auto& at, const auto& speed, const auto& f) {
+      force_below(at.part(0, first), speed.part(0, first), f.part(0, first));
+      force_above(at.part(first, all - first), speed.part(first, all - first), f.part(first, all - first));
+      contact.add(at, speed, f, 1e-4);
+    };
+    return stable_step(force, vectors(x), vectors(v), rho, {.spacing = l0, .perturbation = perturbation});
+  };
+  const StableStep right = found(1e-5), chosen = found(0);
+  EXPECT_TRUE(chosen.converged);
+  EXPECT_NEAR(chosen.perturbation, 1e-5, 1e-12);
+  EXPECT_NEAR(chosen.limit, right.limit, 0.005 * right.limit);
 }
 
 }  // namespace stable_step_test

@@ -574,6 +574,12 @@ TEST(Volumes, AreThoseOfOneParticle) {
                   unlike.add_organ({.name = "block again", .slaves = uneven.pile.block.bottom}),
                   {.roles = hmps::Roles::only_second_is_slave});
   const std::string two = message_of([&] { uneven.pile.apply(unlike, dt); });
+  // Equal but for rounding, as l0^3 without a volume.
+  const auto cell = [](Index) { return 0.7e-3 * 0.7e-3 * 0.7e-3; };
+  hmps::detail::OrganPairs alike;
+  alike.add_organ({.name = "one", .slaves = some, .volume = cell}, static_cast<double>(0.7e-3F));
+  alike.add_organ({.name = "other", .slaves = some}, static_cast<double>(0.7e-3F));
+  EXPECT_NO_THROW(alike.number_particles());
   EXPECT_NE(two.find("two organs give particle "), std::string::npos) << two;
 }
 

@@ -307,4 +307,33 @@ TEST(Sticking, BeginsWhereFrictionIsSwitchedOn) {
   EXPECT_LT(off, 1e-6 * largest);
 }
 
+// Two blocks on a plate, of which one slides without friction until friction is switched on after a restart.
+TEST(Sticking, ResumesBesideAPairWithoutFriction) {
+  bodies::Scene<double, 3> scene;
+  const auto plate = scene.add({14, 4, 3}, {0, 0, 0}, l0), left = scene.add({4, 4, 3}, {1.3 * l0, 0, 2.9 * l0}, l0),
+             right = scene.add({4, 4, 3}, {7.4 * l0, 0, 2.9 * l0}, l0);
+  Contact contact({.spacing = l0, .density = density}), resumed({.spacing = l0, .density = density});
+  for (Contact* one : {&contact, &resumed}) {
+    const auto below = one->add_organ({.name = "plate", .slaves = plate.top, .masters = plate.upper});
+    one->add_pair(below, one->add_organ({.name = "left", .slaves = left.bottom, .masters = left.lower}),
+                  {.friction = 0.5});
+    one->add_pair(below, one->add_organ({.name = "right", .slaves = right.bottom, .masters = right.lower}));
+  }
+  const auto slide = [&] {
+    for (const Index i : left.all) scene.x[i][0] += 2e-7;
+    for (const Index i : right.all) scene.x[i][0] += 2e-7;
+  };
+  for (int step = 0; step < 3; ++step) slide(), scene.apply(contact, dt);
+  resumed.restore_history(contact.history());
+  EXPECT_EQ(resumed.history(), contact.history());
+  for (Contact* one : {&contact, &resumed}) one->set_friction(0.5);
+  for (int step = 0; step < 3; ++step) {
+    slide();
+    scene.apply(contact, dt);
+    const auto forces = scene.f;
+    scene.apply(resumed, dt);
+    ASSERT_EQ(forces, scene.f) << "step " << step;
+  }
+}
+
 }  // namespace sticking_test

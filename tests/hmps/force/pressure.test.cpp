@@ -306,4 +306,26 @@ TEST(Pressure, LeavesANetForceOnTheHoleOfAFittedRingAsStated) {
   }
 }
 
+// The areas of edges and corners lie aslant: by them, bonds seemed to reach less far down, and walls passed whose areas
+// cancel.
+TEST(Pressure, CountsTheLayersOfAFaceAndNotOfItsEdges) {
+  using P = hmps::Vector<double, 3>;
+  constexpr double apart = 1e-3;
+  for (const int across : {6, 8, 12})
+    for (const int high : {4, 6, 8}) {
+      std::vector<P> points;
+      for (int i = 0; i < across; ++i)
+        for (int j = 0; j < across; ++j)
+          for (int k = 0; k < high; ++k) points.push_back(apart * P(i, j, k));
+      const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(points), {.spacing = apart, .radius_ratio = 2.1});
+      const hmps::ParticleSet top(points.size(), [&](std::size_t i) { return points[i][2] > (high - 4.5) * apart; });
+      const auto load = [&] { (void)hmps::Pressure<3>(bonds, top); };
+      if (high < 8) {
+        EXPECT_THROW(load(), hmps::InputError) << across << " across, " << high << " high";
+      } else if (across > 6) {
+        EXPECT_NO_THROW(load()) << across;
+      }
+    }
+}
+
 }  // namespace pressure_test

@@ -36,6 +36,23 @@ TEST(FileReplacement, KeepsALink) {
   EXPECT_EQ(detail::read_text(file.string()), "second");
 }
 
+// Results are often linked to another disk before the first run.
+TEST(FileReplacement, FollowsLinksToAFileThatDoesNotExistYet) {
+  const hmps_test::TemporaryFolder folder;
+  const auto file = folder.path() / "store" / "a.bin", link = folder.path() / "link.bin",
+             second = folder.path() / "second.bin";
+  std::filesystem::create_directory(folder.path() / "store");
+  std::filesystem::create_symlink("store/a.bin", link);
+  std::filesystem::create_symlink(link, second);
+  replace_file(second, "first");
+  EXPECT_TRUE(std::filesystem::is_symlink(link) && std::filesystem::is_symlink(second));
+  EXPECT_EQ(detail::read_text(file.string()), "first");
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink("second.bin", link);
+  EXPECT_THROW(replace_file(second, "in a circle"), InputError);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
 TEST(FileReplacement, DoesNotFollowALinkAtTheTemporaryName) {
   const hmps_test::TemporaryFolder folder;
   const auto other = folder.path() / "precious.txt", path = folder.path() / "a.bin",

@@ -54,16 +54,17 @@ TEST(ObjFile, ConcaveFacesKeepTheirArea) {
 }
 
 TEST(ObjFile, NamesTheLineOfAFaceThatIsNone) {
-  const std::string vertices = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 0.5 0.5 0\n";
+  const std::string vertices = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 0.5 0.5 0\nv 1 0 0\n";
   const auto message = [&](const std::string& face) {
     return hmps_test::message_of([&] { (void)parsed(vertices + "f 1 2 3\n" + face); });
   };
-  EXPECT_NE(message("f 1 2 3 4").find("a.obj, line 8: the border of a face of 4 corners crosses itself"),
+  EXPECT_NE(message("f 1 2 3 4").find("a.obj, line 9: the border of a face of 4 corners crosses itself"),
             std::string::npos);
-  EXPECT_NE(message("f 1 6 5 2\nf 1 2 3\n").find("a.obj, line 8: a face of 4 corners encloses no area"),
+  EXPECT_NE(message("f 1 5 7 4\nf 1 2 3\n").find("a.obj, line 9: a face of 4 corners encloses no area"),
             std::string::npos);
+  EXPECT_EQ(message("f 1 6 5 2\n"), "") << "a face on a line, which closes a gap between edges";
   // Vertices that are no numbers are reported by the checks of the whole surface.
-  EXPECT_EQ(message("v 1e308 0 0\nv -1e308 0 0\nv 0 1e308 0\nv 0 -1e308 0\nf 7 9 8 10\n"), "");
+  EXPECT_EQ(message("v 1e308 0 0\nv -1e308 0 0\nv 0 1e308 0\nv 0 -1e308 0\nf 8 10 9 11\n"), "");
 }
 
 }  // namespace obj_file_test

@@ -58,12 +58,15 @@ class ContactHistory {
   /// The elastic slip of entry `k`, for which `turned_round` must have been called in this call.
   [[nodiscard]] Slip& slip(std::size_t k) { return entries_[k].slip; }
 
-  /// Appends the number, `outward` and the elastic slip of each entry that touched in the latest call.
+  /// Appends the number, `outward` and the elastic slip of each entry that touched in the latest call. A half is added
+  /// to the number of an entry whose slip has not begun, because its pair has no friction.
   void append_to(std::vector<double>& numbers) const {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const Entry& entry = entries_[k];
       if (entry.call != call_) continue;
-      numbers.push_back(static_cast<double>(k));
+      double number = static_cast<double>(k);
+      if constexpr (has_slip) number += entry.slip.starts ? 0.5 : 0;
+      numbers.push_back(number);
       for (int c = 0; c < D; ++c) numbers.push_back(static_cast<double>(entry.outward[c]));
       if constexpr (has_slip)
         for (int c = 0; c < D; ++c) numbers.push_back(static_cast<double>(entry.slip.value[c]));
@@ -82,8 +85,9 @@ class ContactHistory {
     std::vector<Entry> entries(size);
     double next = 0;
     for (std::size_t at = 0; at < numbers.size(); at += width) {
-      const double k = numbers[at];
-      require_history(is_finite(k) && k >= next && k < static_cast<double>(size) && k == std::floor(k));
+      const double k = std::floor(numbers[at]), half = numbers[at] - k;
+      require_history(is_finite(k) && k >= next && k < static_cast<double>(size) &&
+                      (half == 0 || (has_slip && half == 0.5)));
       next = k + 1;
       Entry& entry = entries[static_cast<std::size_t>(k)];
       entry.call = call_;
@@ -95,7 +99,7 @@ class ContactHistory {
           entry.slip.value[static_cast<int>(c)] = static_cast<S>(numbers[at + 1 + D + c]);
         }
       }
-      if constexpr (has_slip) entry.slip.starts = false;
+      if constexpr (has_slip) entry.slip.starts = half > 0;
     }
     entries_ = std::move(entries);
   }

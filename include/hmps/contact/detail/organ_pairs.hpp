@@ -266,9 +266,10 @@ inline void OrganPairs::number_particles() {
     member.number = static_cast<Index>(found - particle_.begin());
     flags_[member.number] = static_cast<std::uint8_t>(flags_[member.number] | member.flags);
     double& volume = volume_[member.number];
-    require(!(volume > 0) || volume == member.volume, "hmps: two organs give particle ", member.particle,
-            " volumes of ", volume, " and ", member.volume, " l0^D; give it one volume");
-    volume = member.volume;
+    constexpr double rounding = 1e-6;
+    require(!(volume > 0) || std::abs(volume - member.volume) <= rounding * volume, "hmps: two organs give particle ",
+            member.particle, " volumes of ", volume, " and ", member.volume, " l0^D; give it one volume");
+    if (!(volume > 0)) volume = member.volume;
   }
 }
 

@@ -12,8 +12,8 @@
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/blocks.hpp"
 #include "hmps/lanes/detail/registers.hpp"
+#include "hmps/lanes/detail/slots.hpp"
 #include "hmps/lanes/lanes.hpp"
-#include "hmps/lanes/slots.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
 

@@ -24,7 +24,8 @@ enum class PolygonFault { none, no_area, crosses_itself };
 inline constexpr double polygon_tolerance = 1e-6;
 
 /// Splits one polygon into triangles, corners numbered from 0: into the fan of its corner 0 if that represents it (it
-/// does for every convex polygon), else by clipping ears in the plane of its Newell normal. Lengths are in units of the
+/// does for every convex polygon), else by clipping ears in the plane of its Newell normal. Warped polygons for which
+/// that fails, and those whose corners lie on a line, also become the fan. Lengths are in units of the
 /// largest distance from corner 0. Corners may coincide, and edges that are traversed in both directions may lead to
 /// holes. There are always two triangles fewer than corners; some have no area where corners lie on a line.
 class PolygonSplit {
@@ -33,7 +34,7 @@ class PolygonSplit {
 
   /// `resolution`: by how much rounding may have moved the corners, in their unit.
   PolygonSplit(std::vector<Vector<double, 3>> corners, double resolution) : points_(std::move(corners)) {
-    for (std::size_t k = 2; k < points_.size(); ++k) triangles_.push_back({0, k - 1, k});
+    make_fan();
     if (triangles_.size() < 2) return;
     const Vector<double, 3> origin = points_[0];
     double reach = 0;
@@ -43,7 +44,7 @@ class PolygonSplit {
     Vector<double, 3> normal = Vector<double, 3>::Zero();
     for (const auto& [a, b, c] : triangles_) normal += points_[b].cross(points_[c]);
     if (!(normal.norm() > resolution / reach)) {
-      fault_ = has_third_place() ? PolygonFault::no_area : PolygonFault::none;
+      fault_ = is_on_a_line() ? PolygonFault::none : PolygonFault::no_area;
       return;
     }
     normal.normalize();
@@ -57,12 +58,25 @@ class PolygonSplit {
  private:
   using Point = Vector<double, 2>;
 
-  /// Whether the corners lie in more than two places; in two or one, they are no surface after welding.
-  [[nodiscard]] bool has_third_place() const {
-    const auto farthest = std::ranges::max_element(points_, {}, [](const auto& p) { return p.squaredNorm(); });
-    return std::ranges::any_of(points_, [&](const auto& p) {
-      return p.norm() > polygon_tolerance && (p - *farthest).norm() > polygon_tolerance;
-    });
+  void make_fan() {
+    triangles_.clear();
+    for (std::size_t k = 2; k < points_.size(); ++k) triangles_.push_back({0, k - 1, k});
+  }
+
+  /// Whether all corners lie on a line, as those of a face that closes the gap where edges of unlike division meet.
+  [[nodiscard]] bool is_on_a_line() const {
+    const Vector<double, 3> farthest =
+        *std::ranges::max_element(points_, {}, [](const auto& p) { return p.squaredNorm(); });
+    return std::ranges::all_of(points_, [&](const auto& p) { return p.cross(farthest).norm() <= polygon_tolerance; });
+  }
+  /// Whether the corners lie in a plane, to within a twentieth of the extent.
+  [[nodiscard]] bool is_flat(const Vector<double, 3>& normal) const {
+    double low = 0, high = 0;
+    for (const auto& p : points_) {
+      low = std::min(low, p.dot(normal));
+      high = std::max(high, p.dot(normal));
+    }
+    return high - low <= 0.05;
   }
 
   /// Whether the fan covers nothing twice and nothing outside, except for slivers: seen against the normal, no triangle
@@ -107,7 +121,11 @@ class PolygonSplit {
   void clip(const Vector<double, 3>& normal) {
     const Vector<double, 3> first = normal.unitOrthogonal(), second = normal.cross(first);
     for (const auto& point : points_) plane_.emplace_back(point.dot(first), point.dot(second));
-    if (!turns_once() || crosses() || !clip_ears() || covers_twice()) fault_ = PolygonFault::crosses_itself;
+    if (turns_once() && !crosses() && clip_ears() && !covers_twice()) return;
+    if (is_flat(normal))
+      fault_ = PolygonFault::crosses_itself;
+    else
+      make_fan();  // a warped face that no plane shows
   }
 
   /// Whether the border turns by one full angle. At the tip of a spike it may turn to either side.
@@ -141,7 +159,8 @@ class PolygonSplit {
     return false;
   }
 
-  /// Whether a corner in `rest` other than those of the triangle lies in it, more than `margin` from its edges.
+  /// Whether a corner in `rest` other than those of the triangle lies in it, more than `margin` from its edges, or less
+  /// than that outside of it if `margin` is negative: rounding must not hide a corner on an edge.
   [[nodiscard]] bool holds_corner(const Triangle& t, const std::vector<std::size_t>& rest, double margin) const {
     const Point &a = plane_[t[0]], &b = plane_[t[1]], &c = plane_[t[2]];
     return std::ranges::any_of(rest, [&](std::size_t k) {
@@ -160,7 +179,7 @@ class PolygonSplit {
     const double high = height(a, b, c);
     if (way == spike) return std::abs(high) <= polygon_tolerance && (b - a).dot(c - b) <= 0;
     if (way == sliver) return std::abs(high) <= polygon_tolerance;
-    return high > polygon_tolerance && !holds_corner(t, rest, way == ear ? 0 : polygon_tolerance);
+    return high > polygon_tolerance && !holds_corner(t, rest, way == ear ? -polygon_tolerance : polygon_tolerance);
   }
 
   [[nodiscard]] bool clip_ears() {

@@ -12,9 +12,7 @@
 #include "hmps/lanes/detail/window.hpp"
 #include "hmps/lanes/lanes.hpp"
 
-namespace hmps::inline HMPS_ABI {
-
-namespace detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 #if defined(__GNUC__) || defined(__clang__)
 /// The lanes of one register; the first half lies at `first`, the second half at `second`.
@@ -129,6 +127,4 @@ class SlotArrays {
   std::vector<K, AlignedAllocator<K>> values_;
 };
 
-}  // namespace detail
-
-}  // namespace hmps::inline HMPS_ABI
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hmps/lanes/slots.hpp"
+#include "hmps/lanes/detail/slots.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,9 +18,7 @@
 #include "hmps/search/detail/resolution.hpp"
 #include "hmps/search/nearest_spacing.hpp"
 
-namespace hmps::inline HMPS_ABI {
-
-namespace detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// A cell of a simple cubic lattice, or the difference of two: steps along each axis.
 template <int D>
@@ -137,6 +135,4 @@ struct LatticeCells {
   }
 };
 
-}  // namespace detail
-
-}  // namespace hmps::inline HMPS_ABI
+}  // namespace hmps::inline HMPS_ABI::detail

@@ -21,9 +21,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/search/nearest_spacing.hpp"
 
-namespace hmps::inline HMPS_ABI {
-
-namespace detail {
+namespace hmps::inline HMPS_ABI::detail {
 
 /// Sums over all particles at one time, of each by its share V / l0^D of a volume.
 struct Unbalanced {
@@ -110,9 +108,10 @@ class Stalling {
     return stalled;
   }
 
-  /// Throws `StateError` if the search stalls or has made all permitted iterations.
+  /// Throws `StateError` if the search stalls or has made all permitted iterations. Where damping limits the step, a
+  /// body moves for long without less unbalance, so that no stall shows.
   void require_progress(const Relaxation& now, const RelaxationSettings& settings, bool damped) {
-    const bool stalled = update(now);
+    const bool stalled = update(now) && !damped;
     if (stalled || now.iterations >= settings.max_iterations) throw_not_at_rest(now, settings, damped, stalled);
   }
 
@@ -276,6 +275,4 @@ class RelaxingBody {
   std::vector<double> shares_;  // V / l0^D; empty if that is 1
 };
 
-}  // namespace detail
-
-}  // namespace hmps::inline HMPS_ABI
+}  // namespace hmps::inline HMPS_ABI::detail
