@@ -70,9 +70,10 @@ inline void validate(const RelaxationSettings& s) {
   throw StateError(message(
       "hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ", result.residual,
       " of the load, ", result.load, " N; ",
-      stalled ? "they no longer decrease, because they are the rounding of forces or positions in float, or a "
-                "contact opens and closes: use bonds and positions in double"
-              : "if bonds or positions are in float, use double; otherwise allow more max_iterations than ",
+      stalled
+          ? "they no longer decrease, because they are rounding, or because a contact opens and closes: if bonds or "
+            "positions are in float, use double"
+          : "if bonds or positions are in float, use double; otherwise allow more max_iterations than ",
       stalled ? "" : std::to_string(settings.max_iterations), ", or a larger tolerance than ", settings.tolerance,
       damped ? "; damping shortened its step: leave viscosity out, and give a contact with friction a longer "
                "dt, about the step of relax without friction"

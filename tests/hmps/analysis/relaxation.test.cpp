@@ -414,7 +414,7 @@ TEST(Relax, EndsWhereTheForcesOfFloatBondsAreRounding) {
   EXPECT_LT(settle(0.0), 10000);
   const std::string words = words_of([&] { (void)settle(0.F); });
   EXPECT_TRUE(has(words, "no longer decrease")) << words;
-  EXPECT_TRUE(has(words, "bonds and positions in double, or a larger tolerance than 0.001")) << words;
+  EXPECT_TRUE(has(words, "if bonds or positions are in float, use double, or a larger tolerance than 0.001")) << words;
   const auto at = words.find("relax made ");
   ASSERT_NE(at, std::string::npos);
   EXPECT_LT(std::stoi(words.substr(at + 11)), 20000) << words;
