@@ -40,10 +40,11 @@ namespace hmps::inline HMPS_ABI {
 /// then.
 ///
 /// The result holds for the given state; stretch and new contacts change it. A contact without penetration does not
-/// count. One whose penetration is smaller than the trial displacement counts about half: set `perturbation` well below
-/// the penetrations, in spacings, and compare it with the one used if contact computes in float. The derivatives of
-/// contact are not symmetric; in the scenes of docs/measured/stability.md the limit nevertheless agreed with that of
-/// the true, unsymmetric motion within half a per cent.
+/// count, except where nothing else in the force is stiff: the trial displacements then grow to a hundredth of a
+/// spacing, and close gaps that are smaller. One whose penetration is smaller than the trial displacement counts about
+/// half: set `perturbation` well below the penetrations, in spacings, and compare it with the one used if contact
+/// computes in float. The derivatives of contact are not symmetric; in the scenes of docs/measured/stability.md the
+/// limit nevertheless agreed with that of the true, unsymmetric motion within half a per cent.
 ///
 /// @param density  in kg/m3, a number or a `ScalarView`
 /// The views are not changed. The result does not depend on the executor if the force does not. Throws `InputError` for
