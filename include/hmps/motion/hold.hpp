@@ -31,8 +31,8 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 /// exist, a velocity that is not finite and a set made for another number of particles.
 ///
 /// For half of a symmetric body, let the held layer lie on the plane of symmetry and give the bonds volumes, half of
-/// l0^D there: half a block of 20 spacings between plates then took 0.07 % less force than the whole block, and 4.4 %
-/// more with whole volumes (a program that was not kept).
+/// l0^D there: half of a bar of five layers that is clamped at both ends then sags 1.5 % more than the whole bar, with
+/// whole volumes 2.6 % more, and 6.6 % less if the layer lies half a spacing before the plane.
 template <class V, int D>
 void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
   require_size(v, held.scene_size(), "velocities");
