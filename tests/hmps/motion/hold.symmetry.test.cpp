@@ -48,7 +48,7 @@ double sag(double first, Volumes volumes) {
   std::vector<Point> x = reference, v(x.size(), Point::Zero()), f = v;
   (void)relax(force, vectors(x), vectors(v), vectors(f), density,
               {.spacing = l0,
-               .tolerance = 1e-5,
+               .tolerance = 1e-3,
                .load = density * gravity_size * length * 1e-4,
                .moves =
                    [&](std::size_t i) {
