@@ -617,7 +617,7 @@ TEST(Relax, BadInputIsRefused) {
 }
 
 // Earlier, a body that drag slows down was taken for one that rounding keeps from rest.
-TEST(Relax, IsPatientWithDrag) {
+TEST(Relax, ConvergesWithDrag) {
   using P = Vector<double, 2>;
   for (const double drag : {1e5, 1e6, 3e6}) {
     std::vector<P> x{{0, 0}, {1e-3, 0}, {2e-3, 0}, {3e-3, 0}}, v(4, P::Zero()), f(v);

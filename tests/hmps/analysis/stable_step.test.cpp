@@ -353,13 +353,17 @@ TEST(StableStep, RefusesAnEmptyFunction) {
   EXPECT_NO_THROW((void)stable_step(force, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}));
 }
 
+/// A lattice of `along` x 5 x 5 particles.
+std::vector<Vector<double, 3>> block(int along, double l0) {
+  const Box<double, 3> box{Vector<double, 3>::Zero(), Vector<double, 3>(along * l0, 5 * l0, 5 * l0)};
+  return fill_lattice(box, l0, Vector<double, 3>(Vector<double, 3>::Constant(l0 / 2)));
+}
+
 /// Earlier, trial motions had the size that suits the positions, and vanished in the rounding of float bonds: viscosity
 /// was missed in moving bodies.
 TEST(StableStep, SeesViscosityThroughFloatBondsOfAMovingBody) {
   const double l0 = 1.2e-3, rho = 1000;
-  const std::vector<Vector<double, 3>> X =
-      fill_lattice(Box<double, 3>{Vector<double, 3>::Zero(), Vector<double, 3>(6 * l0, 5 * l0, 5 * l0)}, l0,
-                   Vector<double, 3>(Vector<double, 3>::Constant(l0 / 2)));
+  const std::vector<Vector<double, 3>> X = block(6, l0);
   const LatticeBonds<double, 3> exact(vectors(X), {.spacing = l0});
   const LatticeBonds<float, 3> coarse(vectors(X), {.spacing = l0});
   for (const double nu : {2e-3, 0.2}) {
@@ -385,9 +389,7 @@ TEST(StableStep, SeesViscosityThroughFloatBondsOfAMovingBody) {
 /// Viscosity alone: no stiffness says how large trial velocities may be.
 TEST(StableStep, SeesViscosityAloneThroughFloatBondsOfAMovingBody) {
   const double l0 = 1.2e-3, rho = 1000;
-  const std::vector<Vector<double, 3>> X =
-      fill_lattice(Box<double, 3>{Vector<double, 3>::Zero(), Vector<double, 3>(5 * l0, 5 * l0, 5 * l0)}, l0,
-                   Vector<double, 3>(Vector<double, 3>::Constant(l0 / 2)));
+  const std::vector<Vector<double, 3>> X = block(5, l0);
   const LatticeBonds<float, 3> bonds(vectors(X), {.spacing = l0});
   auto force = internal_force(bonds, viscous(rho, 0.02));
   const auto limit = [&](double speed) {

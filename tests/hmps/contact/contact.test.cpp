@@ -525,7 +525,7 @@ TEST(Volumes, MakeTheForcesOfUnlikeParticlesSumToZero) {
   EXPECT_EQ(v, pile.v);
 }
 
-TEST(Volumes, LetStickingEndNoSooner) {
+TEST(Volumes, LeaveNoSlipWhereUnlikeParticlesStick) {
   // The upper sheet is as light as the penalty permits. With the share of particles of one volume, its slip reverses.
   bodies::Scene<double, 3> scene;
   const hmps::Vector<int, 3> counts(13, 13, 1);
