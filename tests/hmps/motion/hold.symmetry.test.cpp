@@ -74,4 +74,63 @@ TEST(HoldComponent, OnAPlaneOfSymmetryNeedsHalfVolumes) {
   EXPECT_NEAR(sag(-l0 / 2, Volumes::whole) / even, 1.124, 0.002);
 }
 
+struct Stretched {
+  double reaction;       // over the exact one
+  double plane, middle;  // lateral stretches
+  double exact;          // lateral stretch
+};
+
+/// A bar of 5 x 5 particles, stretched by 1.2 between two planes of symmetry, each in a layer of half volumes, with
+/// `layers` layers between them.
+Stretched stretched_between_planes(int layers) {
+  constexpr double stretch = 1.2;
+  const double end = layers * l0;
+  const Box<double, 3> bar{Point(0, 0, -l0 / 2), Point(5 * l0, 5 * l0, end + l0 / 2)};
+  const std::vector<Point> reference = fill_lattice(bar, l0, Point(l0 / 2, l0 / 2, 0));
+  const auto on_plane = [&](std::size_t i) { return reference[i][2] < l0 / 4 || reference[i][2] > end - l0 / 4; };
+  std::vector<double> volume;
+  for (std::size_t i = 0; i < reference.size(); ++i) volume.push_back(l0 * l0 * l0 * (on_plane(i) ? 0.5 : 1));
+  const BondList<double, 3> bonds(vectors(reference), {.spacing = l0}, scalars(volume));
+  const NeoHookean<> law{20e3, 100e3};
+  auto force = internal_force(bonds, elastic(law), artificial(shear_wave_modulus(law.shear_modulus())));
+  std::vector<Point> x = reference, v(x.size(), Point::Zero()), f = v;
+  for (Point& at : x) at[2] *= stretch;
+  (void)relax(force, vectors(x), vectors(v), vectors(f), density,
+              {.spacing = l0,
+               .moves_along = [&](std::size_t i, int c) { return c < 2 || !on_plane(i); },
+               .volume = [&](std::size_t i) { return volume[i]; }});
+
+  double lower = 0.5, upper = 1.5;
+  Matrix<double, 3> C = Matrix<double, 3>::Zero();
+  for (int k = 0; k < 60; ++k) {
+    const double t = (lower + upper) / 2;
+    C.diagonal() << t * t, t * t, stretch * stretch;
+    (law.second_piola_kirchhoff(C, stretch * t * t)(0, 0) > 0 ? upper : lower) = t;
+  }
+  const double J = stretch * lower * lower;
+  Stretched found{0, 0, 0, lower};
+  int on = 0, between = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (reference[i][2] < l0 / 4) found.reaction += f[i][2] * volume[i];
+    if (reference[i][0] < 4 * l0 || std::abs(reference[i][1] - 2.5 * l0) > l0 / 4) continue;
+    const double t = (x[i][0] - 2.5 * l0) / (2 * l0);
+    if (reference[i][2] < l0 / 4) found.plane += t, ++on;
+    if (std::abs(reference[i][2] - end / 2) < l0 / 4) found.middle += t, ++between;
+  }
+  found.plane /= on, found.middle /= between;
+  found.reaction /= stretch * law.second_piola_kirchhoff(C, J)(2, 2) * 25 * l0 * l0;
+  return found;
+}
+
+TEST(HoldComponent, DisturbsAUniformStress) {
+  const Stretched few = stretched_between_planes(6), many = stretched_between_planes(24);
+  EXPECT_NEAR(few.exact, 0.929, 0.0005);
+  EXPECT_NEAR(few.middle, 0.933, 0.001);
+  EXPECT_NEAR(many.middle, 0.930, 0.001);
+  EXPECT_NEAR(few.plane, 0.915, 0.002);
+  EXPECT_NEAR(many.plane, 0.914, 0.002);
+  EXPECT_NEAR(few.reaction, 0.979, 0.002);
+  EXPECT_NEAR(many.reaction, 0.994, 0.002);
+}
+
 }  // namespace hold_symmetry_test

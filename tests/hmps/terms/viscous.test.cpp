@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "../bonds/bonds_of_a_scene.hpp"
 #include "../force/equations.hpp"
@@ -112,6 +115,44 @@ TEST(Viscous, DoesNotChangeWithAParticleThatIsTooCloseElsewhere) {
     points.push_back(points[0] - away * hmps::Vector<double, 3>::Constant(l0 / std::sqrt(3.0)));
     EXPECT_NEAR(force_in_the_middle(), right, 0.01 * std::abs(right)) << away;
     points.pop_back();
+  }
+}
+
+/// The rate at which the velocity cos(k x) along a bar of `height` x `width` particles decays, over that in bulk,
+/// nu k^2 / 2, from the power of the viscous force. Only the middle of a bar that is wider than high counts.
+double decay_of_a_bar(int height, int width) {
+  constexpr double l0 = 1e-3, rho = 1000, nu = 0.01;
+  constexpr int length = 32, end = 8;  // spacings
+  const double k = 2 * 3.14159265358979 / (length * l0);
+  std::vector<hmps::Vector<double, 3>> points;
+  for (int a = 0; a < length; ++a)
+    for (int b = 0; b < width; ++b)
+      for (int c = 0; c < height; ++c) points.emplace_back(a * l0, b * l0, c * l0);
+  const hmps::BondList<double, 3> bonds(hmps::vectors(points), {.spacing = l0});
+  auto force = hmps::internal_force(bonds, hmps::viscous(rho, nu));
+  std::vector<hmps::Vector<double, 3>> v(points.size(), hmps::Vector<double, 3>::Zero()), f = v;
+  for (std::size_t i = 0; i < v.size(); ++i) v[i][0] = std::cos(k * points[i][0]);
+  force(hmps::vectors(points), hmps::vectors(v), hmps::vectors(f));
+  const double middle = 0.5 * (width - 1) * l0, counted = width > height ? 1.5 * l0 : middle + l0;
+  double power = 0, energy = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (points[i][0] < end * l0 || points[i][0] > (length - end) * l0) continue;
+    if (std::abs(points[i][1] - middle) > counted) continue;
+    power -= f[i].dot(v[i]);
+    energy += 0.5 * rho * v[i].squaredNorm();
+  }
+  return power / (4 * energy) / (0.5 * nu * k * k);
+}
+
+// The table of docs/choosing.md.
+TEST(Viscous, DampsThinBodiesLessThanBulk) {
+  const std::vector<std::array<double, 3>> table{{2, 1.15, 1.36}, {3, 0.90, 0.81}, {5, 0.94, 0.88}, {10, 0.97, 0.94}};
+  for (const auto& [layers, sheet, bar] : table) {
+    const int height = static_cast<int>(layers);
+    EXPECT_NEAR(decay_of_a_bar(height, height), bar, 0.015) << layers;
+    if (layers < 10) {
+      EXPECT_NEAR(decay_of_a_bar(height, 16), sheet, 0.015) << layers;
+    }
   }
 }
 
