@@ -3,8 +3,9 @@
 that it is not resumed where files that it needs are lost or tracks of the past have changed, and that two runs never
 write into one folder.
 
-Usage: check_resume.py PROGRAM [KILLS]. Ends with 1 and a message at the first difference. KILLS: how often it is killed
-at a random moment (default: 3).
+Usage: check_resume.py PROGRAM [KILLS | FITTED]. Ends with 1 and a message at the first difference. KILLS: how often it
+is killed at a random moment (default: 3). FITTED: the fitted.bin of an earlier run; a run on these particles is killed
+and resumed once.
 """
 import json
 import pathlib
@@ -18,8 +19,12 @@ import time
 
 program = sys.argv[1]
 DATA = pathlib.Path(__file__).resolve().parents[3] / "examples/swallowing/data"
-kills = int(sys.argv[2]) if len(sys.argv) > 2 else 3
+extra = sys.argv[2] if len(sys.argv) > 2 else "3"
+fitted = None if extra.isdigit() else pathlib.Path(extra)
 SETTINGS = ["--case", "X1", "--until", "0.045", "--frame-interval", "0.015"]  # a checkpoint comes every 0.02 s
+if fitted:
+    SETTINGS = ["--case", "X1", "--until", "0.021", "--frame-interval", "0.01", "--particles", "fitted",
+                "--no-surfaces"]
 MEASURED = ("wall_seconds", "particle_steps_per_second", "contact_share", "contact_share_per_tenth", "threads")
 
 
@@ -153,8 +158,7 @@ def refuses_a_folder_in_use(out):
     print("of two runs in one folder the second is refused", flush=True)
 
 
-with tempfile.TemporaryDirectory() as name:
-    alone, killed = pathlib.Path(name) / "alone", pathlib.Path(name) / "killed"
+def check_lattice(alone, killed, data):
     start = time.monotonic()
     run(alone, "--threads", "1")
     seconds = time.monotonic() - start
@@ -172,14 +176,33 @@ with tempfile.TemporaryDirectory() as name:
 
     shutil.rmtree(killed)
     random.seed(16)
-    done = sum(kill_at_random(killed, seconds) for _ in range(kills))
+    done = sum(kill_at_random(killed, seconds) for _ in range(int(extra)))
     run(killed, "--resume")
     for part in killed.rglob("*.part"):
         part.unlink()
     compare(f"killed {done} times at random moments", alone, killed)
 
     shutil.rmtree(killed)
-    follows_other_tracks_from_here(alone, killed, pathlib.Path(name) / "data")
+    follows_other_tracks_from_here(alone, killed, data)
     refuses_what_is_incomplete(alone, killed)
     refuses_a_folder_in_use(killed)
     compare("resumed after the run in the same folder was killed", alone, killed)
+
+
+def check_fitted(alone, killed):
+    for out in (alone, killed):
+        out.mkdir()
+        shutil.copy(fitted, out)
+    run(alone, "--threads", "2")
+    kill_behind_checkpoint(killed, 0.0, "--threads", "2")
+    run(killed, "--threads", "1", "--resume")
+    (killed / "X1/checkpoint.bin.part").unlink(missing_ok=True)
+    compare("fitted particles, killed and resumed with another number of threads", alone, killed)
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = pathlib.Path(name)
+    if fitted:
+        check_fitted(folder / "alone", folder / "killed")
+    else:
+        check_lattice(folder / "alone", folder / "killed", folder / "data")
