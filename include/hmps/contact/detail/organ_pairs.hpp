@@ -29,7 +29,8 @@ enum : std::uint8_t { is_slave = 1, is_master = 2, is_prescribed = 4 };
 /// A member is a particle in one organ. Members are stored organ by organ, sorted by particle within each. All
 /// particles that are members are numbered once, in the order of their indices. A side is an ordered pair of organs:
 /// the slaves of one at the wall of the other.
-class OrganPairs {
+template <class R>
+class BasicOrganPairs {
  public:
   struct OrganRange {
     std::string name;
@@ -51,8 +52,8 @@ class OrganPairs {
   struct Member {
     Index particle, number;
     std::uint8_t flags;
-    double radius;  // r_0 in m of a slave
-    double volume;  // over l0^D
+    R radius;  // r_0 in m of a slave
+    R volume;  // over l0^D
   };
 
   /// Returns the number of the organ, in `dimensions`. Throws `InputError` if it is empty, for a slave whose radius is
@@ -127,8 +128,11 @@ class OrganPairs {
   std::size_t slots_ = 0, views_ = 0;
   double least_volume_ = 1;
 };
+/// A template, so that only programs with contact compile it.
+using OrganPairs = BasicOrganPairs<double>;
 
-inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing, int dimensions) {
+template <class R>
+std::size_t BasicOrganPairs<R>::add_organ(const Organ& organ, double spacing, int dimensions) {
   require(!organ.slaves.empty() || !organ.masters.empty(), "hmps: organ '", organ.name,
           "' has neither slaves nor masters; give the indices of its surface particles");
   std::vector<std::pair<Index, std::uint8_t>> all;
@@ -157,7 +161,8 @@ inline std::size_t OrganPairs::add_organ(const Organ& organ, double spacing, int
   return organs_.size() - 1;
 }
 
-inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double spacing) {
+template <class R>
+double BasicOrganPairs<R>::checked_radius(const Organ& organ, Index slave, double spacing) {
   constexpr double most = 0.75;   // half of the widest layers that `fit_particles` makes
   constexpr double least = 0.02;  // below half of its closest
   const double radius = organ.radius(slave);
@@ -167,7 +172,8 @@ inline double OrganPairs::checked_radius(const Organ& organ, Index slave, double
   return radius;
 }
 
-inline double OrganPairs::checked_volume(const Organ& organ, Index particle, double spacing, int dimensions) {
+template <class R>
+double BasicOrganPairs<R>::checked_volume(const Organ& organ, Index particle, double spacing, int dimensions) {
   const double volume = organ.volume(particle), cell = std::pow(spacing, dimensions), share = volume / cell;
   require(is_finite(share) && share * volume_factor_of_bonds > 1 && share < volume_factor_of_bonds, "hmps: particle ",
           particle, " of organ '", organ.name, "' has a volume of ", volume, " m", dimensions,
@@ -176,7 +182,8 @@ inline double OrganPairs::checked_volume(const Organ& organ, Index particle, dou
   return share;
 }
 
-inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
+template <class R>
+std::size_t BasicOrganPairs<R>::add_pair(std::size_t a, std::size_t b, const PairSettings& settings) {
   for (const std::size_t o : {a, b})
     require(o < organs_.size(), "hmps: organ ", o, " of a contact pair does not exist; only ", organs_.size(),
             " organs were added, numbered from 0");
@@ -219,9 +226,11 @@ inline std::size_t OrganPairs::add_pair(std::size_t a, std::size_t b, const Pair
 
 /// Throws `InputError` unless `slaves` has slaves and `masters` has masters, and if another side shares a slave and a
 /// master with this one: they would push each other twice.
-inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const {
+template <class R>
+void BasicOrganPairs<R>::check_side(std::size_t slaves, std::size_t masters, const Pair& pair) const {
   const auto any = [&](std::size_t o, std::uint8_t role) {
-    return std::ranges::any_of(members_of(o), [&](const Member& member) { return (member.flags & role) != 0; });
+    const auto members = members_of(o);
+    return std::any_of(members.begin(), members.end(), [&](const Member& m) { return (m.flags & role) != 0; });
   };
   require(any(slaves, is_slave), "hmps: organ '", organs_[slaves].name, "' has no slaves but is to touch '",
           organs_[masters].name, "'; give it slaves, or choose `roles` in which only the other organ is slave");
@@ -243,7 +252,8 @@ inline void OrganPairs::check_side(std::size_t slaves, std::size_t masters, cons
 }
 
 /// The particles in `role` that organs `a` and `b` share, ascending.
-inline std::vector<Index> OrganPairs::common(std::size_t a, std::size_t b, std::uint8_t role) const {
+template <class R>
+std::vector<Index> BasicOrganPairs<R>::common(std::size_t a, std::size_t b, std::uint8_t role) const {
   std::vector<Index> particles;
   for (std::size_t m = organs_[a].begin, k = organs_[b].begin; m < organs_[a].end && k < organs_[b].end;) {
     const Member &one = members_[m], &other = members_[k];
@@ -254,7 +264,8 @@ inline std::vector<Index> OrganPairs::common(std::size_t a, std::size_t b, std::
   return particles;
 }
 
-inline void OrganPairs::number_particles() {
+template <class R>
+void BasicOrganPairs<R>::number_particles() {
   particle_.clear();
   for (const Member& member : members_) particle_.push_back(member.particle);
   std::sort(particle_.begin(), particle_.end());

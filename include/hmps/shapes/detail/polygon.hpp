@@ -28,20 +28,21 @@ inline constexpr double polygon_tolerance = 1e-6;
 /// that fails, and those whose corners lie on a line, also become the fan. Lengths are in units of the
 /// largest distance from corner 0. Corners may coincide, and edges that are traversed in both directions may lead to
 /// holes. There are always two triangles fewer than corners; some have no area where corners lie on a line.
-class PolygonSplit {
+template <class R>
+class BasicPolygonSplit {
  public:
   using Triangle = std::array<std::size_t, 3>;
 
   /// `resolution`: by how much rounding may have moved the corners, in their unit.
-  PolygonSplit(std::vector<Vector<double, 3>> corners, double resolution) : points_(std::move(corners)) {
+  BasicPolygonSplit(std::vector<Vector<R, 3>> corners, double resolution) : points_(std::move(corners)) {
     make_fan();
     if (triangles_.size() < 2) return;
-    const Vector<double, 3> origin = points_[0];
+    const Vector<R, 3> origin = points_[0];
     double reach = 0;
     for (auto& point : points_) reach = std::max(reach, (point -= origin).stableNorm());
     if (!(reach > 0) || !std::isfinite(reach)) return;  // checked with all vertices of the surface
     for (auto& point : points_) point /= reach;
-    Vector<double, 3> normal = Vector<double, 3>::Zero();
+    Vector<R, 3> normal = Vector<R, 3>::Zero();
     for (const auto& [a, b, c] : triangles_) normal += points_[b].cross(points_[c]);
     if (!(normal.norm() > resolution / reach)) {
       fault_ = is_on_a_line() ? PolygonFault::none : PolygonFault::no_area;
@@ -56,7 +57,7 @@ class PolygonSplit {
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  using Point = Vector<double, 2>;
+  using Point = Vector<R, 2>;
 
   void make_fan() {
     triangles_.clear();
@@ -65,12 +66,13 @@ class PolygonSplit {
 
   /// Whether all corners lie on a line, as those of a face that closes the gap where edges of unlike division meet.
   [[nodiscard]] bool is_on_a_line() const {
-    const Vector<double, 3> farthest =
-        *std::ranges::max_element(points_, {}, [](const auto& p) { return p.squaredNorm(); });
-    return std::ranges::all_of(points_, [&](const auto& p) { return p.cross(farthest).norm() <= polygon_tolerance; });
+    const Vector<R, 3> farthest = *std::max_element(
+        points_.begin(), points_.end(), [](const auto& p, const auto& q) { return p.squaredNorm() < q.squaredNorm(); });
+    return std::all_of(points_.begin(), points_.end(),
+                       [&](const auto& p) { return p.cross(farthest).norm() <= polygon_tolerance; });
   }
   /// Whether the corners lie in a plane, to within a twentieth of the extent.
-  [[nodiscard]] bool is_flat(const Vector<double, 3>& normal) const {
+  [[nodiscard]] bool is_flat(const Vector<R, 3>& normal) const {
     double low = 0, high = 0;
     for (const auto& p : points_) {
       low = std::min(low, p.dot(normal));
@@ -81,12 +83,12 @@ class PolygonSplit {
 
   /// Whether the fan covers nothing twice and nothing outside, except for slivers: seen against the normal, no triangle
   /// is turned over, and together they go around corner 0 at most once.
-  [[nodiscard]] bool is_fan(const Vector<double, 3>& normal) const {
+  [[nodiscard]] bool is_fan(const Vector<R, 3>& normal) const {
     double angle = 0;
-    const Vector<double, 3>* last = nullptr;  // the last corner apart from corner 0
-    bool returned = false;                    // whether corner 0 came again since then
+    const Vector<R, 3>* last = nullptr;  // the last corner apart from corner 0
+    bool returned = false;               // whether corner 0 came again since then
     for (std::size_t k = 1; k < points_.size(); ++k) {
-      const Vector<double, 3>&p = points_[k - 1], &q = points_[k];
+      const Vector<R, 3>&p = points_[k - 1], &q = points_[k];
       if (p.cross(q).dot(normal) < -polygon_tolerance * std::max({p.norm(), q.norm(), (q - p).norm()})) return false;
       if (q.norm() <= polygon_tolerance) {
         returned = last != nullptr;
@@ -118,8 +120,8 @@ class PolygonSplit {
     return length > 0 ? turn(a, b, c) / length : 0;
   }
 
-  void clip(const Vector<double, 3>& normal) {
-    const Vector<double, 3> first = normal.unitOrthogonal(), second = normal.cross(first);
+  void clip(const Vector<R, 3>& normal) {
+    const Vector<R, 3> first = normal.unitOrthogonal(), second = normal.cross(first);
     for (const auto& point : points_) plane_.emplace_back(point.dot(first), point.dot(second));
     if (turns_once() && !crosses() && clip_ears() && !covers_twice()) return;
     if (is_flat(normal))
@@ -163,7 +165,7 @@ class PolygonSplit {
   /// than that outside of it if `margin` is negative: rounding must not hide a corner on an edge.
   [[nodiscard]] bool holds_corner(const Triangle& t, const std::vector<std::size_t>& rest, double margin) const {
     const Point &a = plane_[t[0]], &b = plane_[t[1]], &c = plane_[t[2]];
-    return std::ranges::any_of(rest, [&](std::size_t k) {
+    return std::any_of(rest.begin(), rest.end(), [&](std::size_t k) {
       const Point& p = plane_[k];
       return p != a && p != b && p != c && left(a, b, p) >= margin && left(b, c, p) >= margin &&
              left(c, a, p) >= margin;
@@ -213,17 +215,20 @@ class PolygonSplit {
       const Point &a = plane_[t[0]], &b = plane_[t[1]], &c = plane_[t[2]];
       return std::min({left(a, b, p), left(b, c, p), left(c, a, p)}) > polygon_tolerance;
     };
-    return std::ranges::any_of(triangles_, [&](const Triangle& t) {
+    return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
       if (height(plane_[t[0]], plane_[t[1]], plane_[t[2]]) <= polygon_tolerance) return false;
       const Point middle = (plane_[t[0]] + plane_[t[1]] + plane_[t[2]]) / 3;
-      return std::ranges::any_of(triangles_, [&](const Triangle& u) { return u != t && holds(u, middle); });
+      return std::any_of(triangles_.begin(), triangles_.end(),
+                         [&](const Triangle& u) { return u != t && holds(u, middle); });
     });
   }
 
-  std::vector<Vector<double, 3>> points_;
+  std::vector<Vector<R, 3>> points_;
   std::vector<Point> plane_;
   std::vector<Triangle> triangles_;
   PolygonFault fault_ = PolygonFault::none;
 };
+/// A template, so that only programs that read polygons compile it.
+using PolygonSplit = BasicPolygonSplit<double>;
 
 }  // namespace hmps::inline HMPS_ABI::detail

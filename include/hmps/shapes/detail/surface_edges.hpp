@@ -16,33 +16,41 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-using Triangles = std::vector<std::array<Index, 3>>;
+// All of this is in templates, with `I` an index, so that only programs with surfaces compile it.
+
+template <class I>
+using BasicTriangles = std::vector<std::array<I, 3>>;
+using Triangles = BasicTriangles<Index>;
 
 /// An edge of a surface, and the number of triangles that traverse it in each direction.
-struct EdgeUse {
-  Index low, high;  ///< its vertices
+template <class I>
+struct BasicEdgeUse {
+  I low, high;  ///< its vertices
   int forward, backward;
-  Index across;  ///< exclusive or of the third corners of its triangles: 0 if there are two and they are the same
+  I across;  ///< exclusive or of the third corners of its triangles: 0 if there are two and they are the same
 
   [[nodiscard]] int uses() const { return forward + backward; }
   [[nodiscard]] bool balanced() const { return forward == backward; }
   /// Whether its two triangles are the same one in both orientations.
   [[nodiscard]] bool folded() const { return forward == 1 && backward == 1 && across == 0; }
 };
+using EdgeUse = BasicEdgeUse<Index>;
 
 /// The edges of `triangles`, each once, ordered by their vertices.
-[[nodiscard]] inline std::vector<EdgeUse> edge_uses(const Triangles& triangles) {
-  std::vector<EdgeUse> edges;
+template <class I = Index>
+[[nodiscard]] std::vector<BasicEdgeUse<I>> edge_uses(const BasicTriangles<I>& triangles) {
+  std::vector<BasicEdgeUse<I>> edges;
   edges.reserve(3 * triangles.size());
   for (const auto& t : triangles)
     for (std::size_t c = 0; c < 3; ++c) {
-      const Index a = t[c], b = t[(c + 1) % 3], across = t[(c + 2) % 3];
-      edges.push_back(a < b ? EdgeUse{a, b, 1, 0, across} : EdgeUse{b, a, 0, 1, across});
+      const I a = t[c], b = t[(c + 1) % 3], across = t[(c + 2) % 3];
+      edges.push_back(a < b ? BasicEdgeUse<I>{a, b, 1, 0, across} : BasicEdgeUse<I>{b, a, 0, 1, across});
     }
-  const auto key = [](const EdgeUse& e) { return std::pair(e.low, e.high); };
-  std::sort(edges.begin(), edges.end(), [&](const EdgeUse& a, const EdgeUse& b) { return key(a) < key(b); });
+  const auto key = [](const BasicEdgeUse<I>& e) { return std::pair(e.low, e.high); };
+  std::sort(edges.begin(), edges.end(),
+            [&](const BasicEdgeUse<I>& a, const BasicEdgeUse<I>& b) { return key(a) < key(b); });
   std::size_t kept = 0;
-  for (const EdgeUse& edge : edges) {
+  for (const BasicEdgeUse<I>& edge : edges) {
     if (kept > 0 && key(edges[kept - 1]) == key(edge)) {
       edges[kept - 1].forward += edge.forward;
       edges[kept - 1].backward += edge.backward;
@@ -55,20 +63,23 @@ struct EdgeUse {
   return edges;
 }
 
-[[nodiscard]] inline std::size_t count_unbalanced(const std::vector<EdgeUse>& edges) {
+template <class I = Index>
+[[nodiscard]] std::size_t count_unbalanced(const std::vector<BasicEdgeUse<I>>& edges) {
   return static_cast<std::size_t>(
-      std::count_if(edges.begin(), edges.end(), [](const EdgeUse& e) { return !e.balanced(); }));
+      std::count_if(edges.begin(), edges.end(), [](const BasicEdgeUse<I>& e) { return !e.balanced(); }));
 }
 
 /// The triangle rotated to start with its smallest vertex: equal for equal corners in the same orientation.
-[[nodiscard]] inline std::array<Index, 3> turned_to_smallest(std::array<Index, 3> t) {
+template <class I = Index>
+[[nodiscard]] std::array<I, 3> turned_to_smallest(std::array<I, 3> t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
 /// The triangles with the same corners and orientation as an earlier one, in order.
-[[nodiscard]] inline std::vector<std::size_t> repeated_triangles(const Triangles& triangles) {
-  using Named = std::pair<std::array<Index, 3>, std::size_t>;
+template <class I = Index>
+[[nodiscard]] std::vector<std::size_t> repeated_triangles(const BasicTriangles<I>& triangles) {
+  using Named = std::pair<std::array<I, 3>, std::size_t>;
   std::vector<Named> named;
   named.reserve(triangles.size());
   for (std::size_t k = 0; k < triangles.size(); ++k) named.emplace_back(turned_to_smallest(triangles[k]), k);
@@ -80,8 +91,9 @@ struct EdgeUse {
   return repeated;
 }
 
-[[nodiscard]] inline Triangles without(const Triangles& triangles, const std::vector<std::size_t>& dropped) {
-  Triangles left;
+template <class I = Index>
+[[nodiscard]] BasicTriangles<I> without(const BasicTriangles<I>& triangles, const std::vector<std::size_t>& dropped) {
+  BasicTriangles<I> left;
   left.reserve(triangles.size() - dropped.size());
   auto next = dropped.begin();
   for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -95,7 +107,8 @@ struct EdgeUse {
 
 /// The repeated triangles if the surface is as closed without them, otherwise none: two parts may share a triangle, for
 /// example two boxes on the same ground.
-[[nodiscard]] inline std::vector<std::size_t> needless_repeats(const Triangles& triangles) {
+template <class I = Index>
+[[nodiscard]] std::vector<std::size_t> needless_repeats(const BasicTriangles<I>& triangles) {
   std::vector<std::size_t> repeated = repeated_triangles(triangles);
   if (!repeated.empty() &&
       count_unbalanced(edge_uses(without(triangles, repeated))) > count_unbalanced(edge_uses(triangles)))
@@ -105,10 +118,11 @@ struct EdgeUse {
 
 /// The triangles of connected parts in which every triangle occurs equally often in both orientations, so that the part
 /// encloses nothing; in order.
-[[nodiscard]] inline std::vector<std::size_t> double_sided(const Triangles& triangles, std::size_t vertices) {
-  std::map<std::array<Index, 3>, int> net;
+template <class I = Index>
+[[nodiscard]] std::vector<std::size_t> double_sided(const BasicTriangles<I>& triangles, std::size_t vertices) {
+  std::map<std::array<I, 3>, int> net;
   DisjointSets parts(vertices);
-  const auto sorted = [](std::array<Index, 3> t) {
+  const auto sorted = [](std::array<I, 3> t) {
     std::sort(t.begin(), t.end());
     return t;
   };
