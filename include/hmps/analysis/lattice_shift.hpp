@@ -50,8 +50,8 @@ template <int D = 3, class Run>
   LatticeSpread spread;
   for (const auto& origin : lattice_shifts<D>(spacing)) {
     const double value = static_cast<double>(run(origin));
-    detail::require(detail::is_finite(value), "hmps: the result for the lattice with the origin (", origin.transpose(),
-                    ") is ", value, "; an error bar needs finite results");
+    detail::require(detail::is_finite(value), "hmps: the result for the lattice with the origin (", origin, ") is ",
+                    value, "; an error bar needs finite results");
     spread.values.push_back(value);
     spread.mean += value / (D + 1);
   }

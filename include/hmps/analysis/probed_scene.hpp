@@ -209,8 +209,8 @@ class ProbedScene {
     if (detail::is_finite(dot(image, image))) return;
     for (std::size_t i = 0; i < size_; ++i)
       if (!detail::is_finite(image[i].squaredNorm()))
-        throw StateError(message("hmps: ", caller_, " finds a force on particle ", i, " that is not finite, ",
-                                 plus_[i].transpose(), " N/m3; check its det F, x, v and the parameters of its law"));
+        throw StateError(message("hmps: ", caller_, " finds a force on particle ", i, " that is not finite, ", plus_[i],
+                                 " N/m3; check its det F, x, v and the parameters of its law"));
   }
 
   const char* caller_;

@@ -53,7 +53,7 @@ class SurfaceCorrection {
       const Vector<double, D> start = reference[i].template cast<double>();
       const auto offset = offset_of(start, shape, spacing);
       detail::require(
-          offset.has_value(), "hmps: particle ", i, " at (", start.transpose(), ") cannot be raised to the surface: ",
+          offset.has_value(), "hmps: particle ", i, " at (", start, ") cannot be raised to the surface: ",
           "it is not in the outermost layer, or the shape does not tell which way is out there; leave the particle "
           "out, or give a shape that is about the signed distance in m");
       offset_.push_back(offset->template cast<S>());

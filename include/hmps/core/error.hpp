@@ -72,7 +72,7 @@ class MessagePart {
     }
   }
 
-  void append_to(std::string& text) const {
+  HMPS_COLD void append_to(std::string& text) const {
     switch (kind_) {
       case Kind::words:
         text += words_;
@@ -98,7 +98,7 @@ class MessagePart {
  private:
   enum class Kind { words, integer, unsigned_integer, number, vector };
   /// Appends `number` with nine digits, which distinguish any two floats.
-  static void append_number(std::string& text, double number) {
+  HMPS_COLD static void append_number(std::string& text, double number) {
     char digits[32];
     text.append(digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 9).ptr);
   }
@@ -114,7 +114,7 @@ class MessagePart {
   bool (*component_)(const void*, std::ptrdiff_t, double&) = nullptr;
 };
 
-[[nodiscard]] inline std::string join_parts(std::initializer_list<MessagePart> parts) {
+[[nodiscard]] HMPS_COLD inline std::string join_parts(std::initializer_list<MessagePart> parts) {
   std::string text;
   for (const MessagePart& part : parts) part.append_to(text);
   return text;

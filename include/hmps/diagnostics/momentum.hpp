@@ -63,8 +63,8 @@ template <class X, class T, int D, PerParticle Rho, PerParticle Vol, Executor E 
   require_size(v, x.size(), "velocities");
   require_positive(density, v.size(), "density", "kg/m3");
   require_positive(volume, v.size(), "volume", detail::unit_of_volume<D>());
-  detail::require(detail::all_finite(about), "hmps: the angular momentum was requested about the point (",
-                  about.transpose(), ") m; give finite numbers");
+  detail::require(detail::all_finite(about), "hmps: the angular momentum was requested about the point (", about,
+                  ") m; give finite numbers");
   using Sum = Axial<D>;
   return reduce(
       v.size(), Sum(Sum::Zero()),

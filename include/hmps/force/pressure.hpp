@@ -64,8 +64,8 @@ class Pressure {
                  bonds, loaded) {
     double along = 0, size = 0;
     for (const auto& own : area_) along += own.dot(unit(direction)), size += own.norm();
-    detail::require(along > 0.1 * size, "hmps: the particles under pressure have no area in the direction (",
-                    direction.transpose(), "); give the outward normal of their face");
+    detail::require(along > 0.1 * size, "hmps: the particles under pressure have no area in the direction (", direction,
+                    "); give the outward normal of their face");
   }
 
   /// Adds the force density (N/m3) of the pressure `p` (Pa, positive if it pushes inwards) at the deformation gradients
@@ -123,7 +123,7 @@ class Pressure {
   [[nodiscard]] static Vector<double, D> unit(const Vector<double, D>& direction) {
     const double length = direction.norm();
     detail::require(detail::is_finite(length) && length > 0, "hmps: the direction of the face under pressure is (",
-                    direction.transpose(), "); give its outward normal");
+                    direction, "); give its outward normal");
     return direction / length;
   }
   /// b_i in 1/m.

@@ -77,7 +77,7 @@ class Blocks : public detail::Anchored {
   /// instead, so that the parts of a body, each on its own machine, round as the whole does as long as its pieces stay
   /// together. Throws `InputError` if `common` is not finite.
   void subtract_displacement(const Vector<double, D>& common) {
-    detail::require(detail::all_finite(common), "hmps: the displacement to subtract is (", common.transpose(),
+    detail::require(detail::all_finite(common), "hmps: the displacement to subtract is (", common,
                     ") m; give finite numbers");
     common_ = common;
   }

@@ -50,7 +50,7 @@ class ControlRegion {
       detail::require(k == 0 || sorted[k - 1] != sorted[k], "hmps: a control region names particle ", sorted[k],
                       " twice; name each once");
       detail::require(detail::all_finite(reference[sorted[k]]), "hmps: the reference position of particle ", sorted[k],
-                      " is (", reference[sorted[k]].transpose(), "); coordinates must be finite");
+                      " is (", reference[sorted[k]], "); coordinates must be finite");
     }
   }
 
@@ -97,7 +97,7 @@ class ControlRegion {
       const double squared = rate.squaredNorm();
       if (!detail::is_finite(squared) || squared > largest)
         throw StateError(detail::message("hmps: a control region requires particle ", i, " to move at ", rate.norm(),
-                                         " m/s to reach (", target.transpose(), ") at ", t,
+                                         " m/s to reach (", target, ") at ", t,
                                          " s; check its keyframes, or place the region where the run starts"));
       v.set(i, rate);
     });
@@ -137,9 +137,8 @@ class ControlRegion {
       const Vector<double, D> place = now(reference);
       const Vector<double, D> rate = velocity_of(reference);
       if (!detail::all_finite(place) || !detail::all_finite(rate))
-        throw StateError(detail::message("hmps: a control region puts particle ", i, " at (", place.transpose(),
-                                         ") with the velocity (", rate.transpose(), ") m/s at ", t,
-                                         " s; check its motion"));
+        throw StateError(detail::message("hmps: a control region puts particle ", i, " at (", place,
+                                         ") with the velocity (", rate, ") m/s at ", t, " s; check its motion"));
       x.set(i, place);
       v.set(i, rate);
     }

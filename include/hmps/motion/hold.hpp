@@ -53,8 +53,8 @@ void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen:
   require_size(v, held.scene_size(), "velocities");
   const Vector<double, D> given = detail::measurable<double, D>(normal.template cast<double>());
   const double length = given.norm();
-  detail::require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (",
-                  normal.transpose(), "); give a direction of finite, nonzero length");
+  detail::require(detail::is_finite(length) && length > 0, "hmps: velocities are to be held along (", normal,
+                  "); give a direction of finite, nonzero length");
   const Vector<double, D> n = given / length;
   for (const Index i : held) {
     const Vector<double, D> own = v[i].template cast<double>();

@@ -80,10 +80,19 @@ namespace detail {
 /// and any map other than a `Pose`, which need not be rigid.
 template <class S, int D>
 void require_rigid(const Pose<S, D>& pose, double time) {
-  const Matrix<S, D> excess = pose.rotation * pose.rotation.transpose() - Matrix<S, D>::Identity();
+  const Matrix<S, D>& R = pose.rotation;
+  bool finite = true;
+  S excess = 0;  // the square of the norm of R R^T - 1
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c) {
+      S entry = r == c ? S(-1) : S(0);
+      for (int k = 0; k < D; ++k) entry += R(r, k) * R(c, k);
+      finite = finite && is_finite(entry);
+      excess += entry * entry;
+    }
   require(
-      !all_finite(excess) || (excess.norm() < S(1e-3) && determinant(pose.rotation) > S(0)),
-      "hmps: the rotation of a pose at ", time, " s is the matrix (by columns) ", pose.rotation,
+      !finite || (std::sqrt(excess) < S(1e-3) && determinant(R) > S(0)), "hmps: the rotation of a pose at ", time,
+      " s is the matrix (by columns) ", pose.rotation,
       ", which is not a rotation; give an orthogonal matrix with determinant 1, such as rotation(vector) returns, or "
       "return a lambda instead of a Pose for a motion that is not rigid");
 }

@@ -78,7 +78,7 @@ struct Turn {
   [[nodiscard]] Vector<T, 3> unit_axis() const {
     const Vector<T, 3> about = detail::measurable<T, 3>(axis);
     const T length = about.norm();
-    detail::require(detail::is_finite(length) && length > 0, "hmps: the axis of a turn is (", axis.transpose(),
+    detail::require(detail::is_finite(length) && length > 0, "hmps: the axis of a turn is (", axis,
                     "); give a direction of finite, nonzero length");
     return about.normalized();
   }

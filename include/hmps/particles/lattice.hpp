@@ -90,7 +90,7 @@ class InsideShape {
     const S distance = static_cast<S>(shape_(x));
     if (is_nan(distance))
       throw InputError(
-          message("hmps: the shape is NaN at (", x.transpose(),
+          message("hmps: the shape is NaN at (", x,
                   "); it must have a value in the whole box: is a size negative or NaN, or a direction zero?"));
     return distance;
   }
@@ -103,11 +103,10 @@ template <class S, int D>
 [[nodiscard]] LatticeSites<D> lattice_sites(const Box<S, D>& box, S spacing, const Vector<S, D>& origin) {
   require(detail::is_finite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
           "; give a positive number of metres");
-  require(detail::all_finite(origin), "hmps: the lattice origin is (", origin.transpose(),
-          "); coordinates must be finite");
+  require(detail::all_finite(origin), "hmps: the lattice origin is (", origin, "); coordinates must be finite");
   require(
       detail::all_finite(box.lower) && detail::all_finite(box.upper) && (box.lower.array() <= box.upper.array()).all(),
-      "hmps: the box to fill reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+      "hmps: the box to fill reaches from (", box.lower, ") to (", box.upper,
       "); give finite corners in metres, the lower one first");
   LatticeSites<D> sites;
   sites.spacing = static_cast<double>(spacing);

@@ -58,8 +58,11 @@ template <class S>
 void require_plausible(const SurfaceMesh<S>& mesh, const Box<S, 3>& box, double spacing) {
   if (!is_finite(spacing) || spacing <= 0) return;  // `lattice_sites` reports this
   const Vector<double, 3> extent = (box.upper - box.lower).template cast<double>();
-  const double sites = (extent / spacing).array().max(1.0).prod();
-  const double largest = extent.maxCoeff();
+  double sites = 1, largest = extent[0];
+  for (int c = 0; c < 3; ++c) {
+    sites *= std::max(extent[c] / spacing, 1.0);
+    largest = std::max(largest, extent[c]);
+  }
   require(sites <= most_sites, "hmps: ", mesh.source, " is ", largest, " m large and holds about ", sites,
           " lattice sites of spacing ", spacing,
           " m: give both in metres (a file in millimetres is read with a scale of 1e-3), or a larger spacing");

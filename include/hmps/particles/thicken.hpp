@@ -55,12 +55,12 @@ class SiteMap {
     for (int c = 0; c < D; ++c) {
       const double step = (x[c] - origin_[c]) / spacing_;
       const double whole = std::round(step);
-      require(std::abs(step - whole) < 0.01 && std::abs(whole) < (1 << 20), "hmps: particle ", i, " at (",
-              x.transpose(), ") is not on a lattice of spacing ", spacing_,
+      require(std::abs(step - whole) < 0.01 && std::abs(whole) < (1 << 20), "hmps: particle ", i, " at (", x,
+              ") is not on a lattice of spacing ", spacing_,
               " m with the first particle; only lattices can be thickened");
       site[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(whole);
     }
-    require(add(site), "hmps: particle ", i, " at (", x.transpose(),
+    require(add(site), "hmps: particle ", i, " at (", x,
             ") shares its lattice site with another particle; remove one of them");
   }
   bool add(const Site& site) {

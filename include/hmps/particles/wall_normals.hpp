@@ -36,9 +36,9 @@ template <class F, int D>
     const Vector<double, D> slope = central_gradient(shape, at, reach);
     squares += slope * slope.transpose();
   }
-  require(is_finite(squares.sum()), "hmps: the shape of a wall is NaN or infinite within half a spacing of (",
-          x.transpose(), "); it must have a value at every particle");
-  require(squares.trace() > 0, "hmps: the shape of a wall does not change within half a spacing of (", x.transpose(),
+  require(is_finite(squares.sum()), "hmps: the shape of a wall is NaN or infinite within half a spacing of (", x,
+          "); it must have a value at every particle");
+  require(squares.trace() > 0, "hmps: the shape of a wall does not change within half a spacing of (", x,
           "), so that it has no normal; give its signed distance, or redistanced(shape, box, spacing / 4)");
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>>(squares).eigenvectors().col(D - 1);
 }

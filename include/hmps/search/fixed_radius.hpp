@@ -157,7 +157,7 @@ class FixedRadiusSearch {
   static void require_ball(const Vector<Scalar, D>& centre, Scalar radius) {
     detail::require(!detail::is_nan(radius) && radius >= 0, "hmps: the search radius is ", radius,
                     " m; it must not be negative");
-    detail::require(detail::all_finite(centre), "hmps: a search is centred at (", centre.transpose(),
+    detail::require(detail::all_finite(centre), "hmps: a search is centred at (", centre,
                     "); coordinates must be finite");
   }
   static const Points& checked(const Points& set) {

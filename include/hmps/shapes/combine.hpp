@@ -164,8 +164,7 @@ template <class A, class B, class S>
 /// The shape moved by `by` metres. Exact if the shape is. Throws `InputError` unless `by` is finite.
 template <class A, class S, int D>
 [[nodiscard]] auto translated(A a, const Vector<S, D>& by) {
-  detail::require(detail::all_finite(by), "hmps: a shape is moved by (", by.transpose(),
-                  ") m; its components must be finite");
+  detail::require(detail::all_finite(by), "hmps: a shape is moved by (", by, ") m; its components must be finite");
   return detail::Combined{[a = std::move(a), by](const auto& x) { return a(Vector<S, D>(x - by)); }};
 }
 

@@ -32,7 +32,7 @@ class IsosurfaceMaker {
 
   IsosurfaceMaker(const F& shape, const Box<S, 3>& box, S cell) : shape_(shape), box_(box), cell_(cell) {
     require(all_finite(box.lower) && all_finite(box.upper) && (box.lower.array() < box.upper.array()).all(),
-            "hmps: the box of an isosurface reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+            "hmps: the box of an isosurface reaches from (", box.lower, ") to (", box.upper,
             "); give an upper corner above the lower one");
     require(is_finite(cell) && cell > 0, "hmps: the cells of an isosurface are ", cell,
             " m wide; give a positive width");
@@ -61,8 +61,8 @@ class IsosurfaceMaker {
       std::swap(lower_, upper_);
       upper_.assign(upper_.size(), no_index);
     }
-    require(!mesh_.triangles.empty(), "hmps: the shape has no surface in the box from (", box_.lower.transpose(),
-            ") to (", box_.upper.transpose(), ") that cells of ", cell_,
+    require(!mesh_.triangles.empty(), "hmps: the shape has no surface in the box from (", box_.lower, ") to (",
+            box_.upper, ") that cells of ", cell_,
             " m resolve; give a shape that is negative inside, a box around it in metres, or smaller cells");
     mesh_.source = "the isosurface";
     return std::move(mesh_);
@@ -85,8 +85,7 @@ class IsosurfaceMaker {
   [[nodiscard]] S value(const Point& x) const {
     const S d = static_cast<S>(shape_(x));
     if (is_nan(d))
-      throw InputError(
-          message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+      throw InputError(message("hmps: the shape is NaN at (", x, "); it must have a value in the whole box"));
     return std::max(d, box_(x));
   }
   [[nodiscard]] std::size_t in_plane(const Node& node) const { return node[1] * nodes_[0] + node[0]; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -110,7 +111,7 @@ class ObjParser {
     double largest = 0;
     for (const Index corner : polygon_) {
       corners.push_back(mesh_.vertices[corner].template cast<double>());
-      largest = std::max(largest, corners.back().cwiseAbs().maxCoeff());
+      for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(corners.back()[c]));
     }
     const PolygonSplit parts(std::move(corners), 4 * static_cast<double>(std::numeric_limits<S>::epsilon()) * largest);
     place_.line = face.line;

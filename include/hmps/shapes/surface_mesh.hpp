@@ -38,7 +38,7 @@ template <class S>
   Box<S, 3> box{mesh.vertices.front(), mesh.vertices.front()};
   for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
     detail::require(detail::all_finite(mesh.vertices[k]), "hmps: vertex ", k, " of ", mesh.source, " is (",
-                    mesh.vertices[k].transpose(), "); every coordinate must be a finite number");
+                    mesh.vertices[k], "); every coordinate must be a finite number");
     box.lower = box.lower.cwiseMin(mesh.vertices[k]);
     box.upper = box.upper.cwiseMax(mesh.vertices[k]);
   }
@@ -49,7 +49,10 @@ template <class S>
 /// which the corners are counter-clockwise.
 [[nodiscard]] inline Vector<double, 3> area_vector(const Vector<double, 3>& a, const Vector<double, 3>& b,
                                                    const Vector<double, 3>& c) {
-  return (b - a).cross(c - a) / 2;
+  // In numbers: every program that includes this compiles it, whether it calls it or not.
+  const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, ac[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  return {(ab[1] * ac[2] - ab[2] * ac[1]) / 2, (ab[2] * ac[0] - ab[0] * ac[2]) / 2,
+          (ab[0] * ac[1] - ab[1] * ac[0]) / 2};
 }
 
 namespace detail {
@@ -181,12 +184,12 @@ void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   const auto repeated = needless_repeats(mesh.triangles);
   if (!repeated.empty())
     throw InputError(message("hmps: ", mesh.source, " has ", mesh.triangles.size(), " triangles, of which ",
-                             repeated.size(), " are repeated, the first at (", middle(repeated.front()).transpose(),
+                             repeated.size(), " are repeated, the first at (", middle(repeated.front()),
                              "); call drop_repeated, or delete the duplicate faces"));
   const auto hollow = double_sided(mesh.triangles, mesh.vertices.size());
   if (!hollow.empty())
     throw InputError(message("hmps: ", mesh.source, " has a part of ", hollow.size(), " triangles, at (",
-                             middle(hollow.front()).transpose(),
+                             middle(hollow.front()),
                              "), that is double-sided: each triangle occurs in both orientations, so that the part "
                              "encloses nothing; keep the outer triangle of each pair in a mesh editor"));
 }
@@ -195,7 +198,7 @@ void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
 template <class S>
 void require_oriented(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   require(faults.turned.count == 0, "hmps: ", mesh.source, " has neighbouring triangles of opposite orientation at ",
-          faults.turned.count, " edges, the first at (", faults.turned.at.transpose(),
+          faults.turned.count, " edges, the first at (", faults.turned.at,
           "); make the normals consistent in a mesh editor");
 }
 
@@ -216,10 +219,10 @@ void require_closed(const SurfaceMesh<S>& mesh) {
           ? ""
           : detail::message(faults.crowded.count,
                             " edges at which an odd number of triangles meet, three or more, the first ", "at (",
-                            faults.crowded.at.transpose(), "): a flap or an inner wall; delete it in a mesh editor");
+                            faults.crowded.at, "): a flap or an inner wall; delete it in a mesh editor");
   detail::require(
       faults.open.count == 0, "hmps: ", mesh.source, " is open at ", faults.open.count, " edges, the first at (",
-      faults.open.at.transpose(),
+      faults.open.at,
       "), so that it has no inside; fill its holes in a mesh editor, weld with a larger tolerance if its parts do "
       "not quite meet, or read it with .closed = false and fill it with fill_open_lattice",
       crowded.empty() ? "" : ". It also has ", crowded);
@@ -229,9 +232,9 @@ void require_closed(const SurfaceMesh<S>& mesh) {
 
 namespace detail {
 /// The signed solid angle of the triangle a, b, c seen from the origin (van Oosterom and Strackee 1983).
-[[nodiscard]] inline double solid_angle(const Vector<double, 3>& a, const Vector<double, 3>& b,
-                                        const Vector<double, 3>& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+template <class R>
+[[nodiscard]] R solid_angle(const Vector<R, 3>& a, const Vector<R, 3>& b, const Vector<R, 3>& c) {
+  const R la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 }  // namespace detail
@@ -243,15 +246,15 @@ template <class S>
 [[nodiscard]] bool inside(const SurfaceMesh<S>& mesh, const Vector<S, 3>& x) {
   detail::require(!mesh.triangles.empty(), "hmps: ", mesh.source,
                   " has no triangles; check that the file holds a surface");
-  detail::require(detail::all_finite(x), "hmps: whether (", x.transpose(), ") is inside ", mesh.source,
+  detail::require(detail::all_finite(x), "hmps: whether (", x, ") is inside ", mesh.source,
                   " cannot be decided; coordinates must be finite");
   double angle = 0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     detail::require_corners(mesh, k);
     const auto& t = mesh.triangles[k];
-    angle += detail::solid_angle((mesh.vertices[t[0]] - x).template cast<double>(),
-                                 (mesh.vertices[t[1]] - x).template cast<double>(),
-                                 (mesh.vertices[t[2]] - x).template cast<double>());
+    angle += detail::solid_angle<double>((mesh.vertices[t[0]] - x).template cast<double>(),
+                                         (mesh.vertices[t[1]] - x).template cast<double>(),
+                                         (mesh.vertices[t[2]] - x).template cast<double>());
   }
   return std::abs(angle) > 2 * std::numbers::pi;
 }

@@ -59,7 +59,8 @@ template <class S, class Holds>
     const Vector<double, 3> c = mesh.vertices[t[2]].template cast<double>();
     const Vector<double, 3> across = area_vector(a, b, c);
     if (!(across.norm() > 0)) continue;
-    const Vector<S, 3> centre = ((a + b + c) / 3).template cast<S>();
+    Vector<S, 3> centre;
+    for (int d = 0; d < 3; ++d) centre[d] = static_cast<S>((a[d] + b[d] + c[d]) / 3);
     const Vector<S, 3> normal = (across / across.norm()).template cast<S>();
     if (!holds(centre, normal)) continue;
     std::array<Index, 3> corners{};
@@ -74,7 +75,7 @@ template <class S, class Holds>
   }
   const Box<S, 3> box = bounds(mesh);
   detail::require(!patch.triangles.empty(), "hmps: none of the ", mesh.triangles.size(), " triangles of ", mesh.source,
-                  ", which reaches from (", box.lower.transpose(), ") to (", box.upper.transpose(),
+                  ", which reaches from (", box.lower, ") to (", box.upper,
                   ") m, is in the patch; check the patch's position and direction, or refine the surface");
   return patch;
 }
@@ -86,7 +87,7 @@ namespace detail {
 /// third edge, which is at most 1, is not shorter. So a sliver gives nearly as many triangles as a square on its long
 /// edge.
 [[nodiscard]] inline double fewest_refined(std::array<double, 3> edges) {
-  std::ranges::sort(edges);
+  std::sort(edges.begin(), edges.end());
   double count = 1, shortest = edges[0], middle = edges[1];
   constexpr double enough = 1e12;
   for (; shortest > 1 && count < enough; shortest /= 2, middle /= 2) count *= 4;

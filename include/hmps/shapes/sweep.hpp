@@ -49,7 +49,7 @@ class Tube {
     detail::require(!rows.empty(), "hmps: a tube needs at least one row of centre and radius");
     for (std::size_t k = 0; k < rows.size(); ++k)
       detail::require(detail::all_finite(rows[k].centre) && detail::is_finite(rows[k].radius) && rows[k].radius > S(0),
-                      "hmps: row ", k, " of a tube has radius ", rows[k].radius, " at (", rows[k].centre.transpose(),
+                      "hmps: row ", k, " of a tube has radius ", rows[k].radius, " at (", rows[k].centre,
                       "); give finite centres and positive radii in metres");
     if (rows.size() == 1) rows.push_back(rows.front());
     for (std::size_t k = 0; k + 1 < rows.size(); ++k)
@@ -94,7 +94,7 @@ class Stack {
       const auto& row = rows_[k];
       detail::require(detail::is_finite(row.level) && detail::all_finite(row.centre) &&
                           detail::all_finite(row.half_axes) && row.half_axes.minCoeff() > S(0),
-                      "hmps: the stack's section at level ", row.level, " has half axes ", row.half_axes.transpose(),
+                      "hmps: the stack's section at level ", row.level, " has half axes ", row.half_axes,
                       "; give finite centres and positive half axes in metres");
       detail::require(k == 0 || rows_[k - 1].level < row.level, "hmps: a stack has two sections at level ", row.level,
                       "; give each level once");
@@ -156,7 +156,7 @@ class Plate {
     detail::require(detail::is_finite(exponent) && exponent >= S(1), "hmps: a plate has the exponent ", exponent,
                     "; give one from 1 (rhombus) on, 2 is an ellipse");
     detail::require(detail::all_finite(across_) && across_.norm() > S(0.5), "hmps: the width direction of a plate is (",
-                    across.transpose(), "); give a vector that is not zero");
+                    across, "); give a vector that is not zero");
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const auto& row = rows_[k];
       detail::require(detail::all_finite(row.centre) && detail::is_finite(row.bow) &&
@@ -170,7 +170,7 @@ class Plate {
                       " of a plate have the same centre; give each point once");
       detail::require(std::abs(along.dot(across_)) <= S(1e-3) * along.norm(),
                       "hmps: the centre line of a plate leaves its plane between rows ", k - 1, " and ", k,
-                      "; it must be normal to the width direction (", across_.transpose(), ")");
+                      "; it must be normal to the width direction (", across_, ")");
     }
   }
 

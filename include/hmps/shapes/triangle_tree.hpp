@@ -63,7 +63,7 @@ class BasicTriangleTree {
       }
       if (node.right == 0)
         for (std::size_t k = node.begin; k < node.end; ++k)
-          angle += detail::solid_angle(triangles_[k][0] - x, triangles_[k][1] - x, triangles_[k][2] - x);
+          angle += detail::solid_angle<double>(triangles_[k][0] - x, triangles_[k][1] - x, triangles_[k][2] - x);
       return true;
     });
     return angle / (4 * std::numbers::pi_v<S>);

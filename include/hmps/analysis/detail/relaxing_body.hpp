@@ -163,8 +163,7 @@ template <class F, int D>
   std::size_t i = 0;
   while (i + 1 < f.size() && (!counts[i] || detail::is_finite(f[i].template cast<double>().sum()))) ++i;
   throw StateError(message(
-      "hmps: iteration ", iteration, " of relax finds a force on particle ", i, " that is not finite, ",
-      f[i].transpose(),
+      "hmps: iteration ", iteration, " of relax finds a force on particle ", i, " that is not finite, ", f[i],
       iteration == 0
           ? " N/m3; do two particles coincide, has det F reached zero (then use the law as Continued{law}), are "
             "the positions those of the body, and do they come before the velocities?"

@@ -87,16 +87,14 @@ class FittedField {
     static_assert(RequireDistance<F, Vector<S, D>>::value);
     (void)lattice_sites<S, D>(box, static_cast<S>(spacing), box.lower);  // for its errors
     require((box.lower.array() < box.upper.array()).all(), "hmps: the box to fit particles in reaches from (",
-            box.lower.transpose(), ") to (", box.upper.transpose(),
-            ") and has no volume; give an upper corner above the lower one");
+            box.lower, ") to (", box.upper, ") and has no volume; give an upper corner above the lower one");
   }
 
   /// Signed distance in m, negative inside. Throws `InputError` where the shape is NaN.
   [[nodiscard]] double operator()(const Point& x) const {
     const double d = shape_(x);
     if (is_nan(d))
-      throw InputError(
-          message("hmps: the shape is NaN at (", x.transpose(), "); it must have a value in the whole box"));
+      throw InputError(message("hmps: the shape is NaN at (", x, "); it must have a value in the whole box"));
     return std::max(d, box_(x));
   }
 

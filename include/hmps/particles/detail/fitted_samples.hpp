@@ -164,8 +164,8 @@ void FittedField<D>::sample(const AnyExecutor& execute) {
       4 * odd <= at_surface, "hmps: in ", odd, " of ", at_surface,
       " cells at the surface, the shape to fit particles in changes by less than 0.1 or more than 4 m per metre; it "
       "must be about the signed distance in metres: give redistanced(shape, box, spacing / 4)");
-  require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower.transpose(), ") to (",
-          box_.upper.transpose(), "); give a shape that is negative inside, and a box around it in metres");
+  require(!samples_.empty(), "hmps: the shape has no volume in the box from (", box_.lower, ") to (", box_.upper,
+          "); give a shape that is negative inside, and a box around it in metres");
 }
 
 template <int D>

@@ -77,7 +77,7 @@ void require_no_part_alone(const FittedField<D>& field, const FittedCloud<D>& cl
     const auto& place = samples[nearest].place;
     if (volume < std::pow(l0, D) || !lies_across_gap(field, place_of_particle(nearest), place)) continue;
     const Layering here = field.layering(place);
-    throw InputError(message("hmps: a part of the body at (", place.transpose(), "), about ", here.thickness,
+    throw InputError(message("hmps: a part of the body at (", place, "), about ", here.thickness,
                              " m thick, holds no particle, and the nearest one lies across a gap; give a spacing of at "
                              "most ",
                              finer_spacing(here, settings, l0), " m, fewer least_layers, or a body without that part"));
@@ -111,13 +111,12 @@ template <int D>
   for (std::size_t k = 0; k < samples.size(); ++k) {
     if (owner[k] == no_index) {
       const Layering here = field.layering(samples[k].place);
-      require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (",
-              samples[k].place.transpose(), "), in a part of the body that is not a wall; give a spacing below ", l0,
+      require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (", samples[k].place,
+              "), in a part of the body that is not a wall; give a spacing below ", l0,
               " m, or a longest_edge of a few spacings");
-      throw InputError(message("hmps: the body is about ", here.thickness, " m thick at (",
-                               samples[k].place.transpose(), "), too thin for ", here.count, " layers of spacing ", l0,
-                               " m, and more than ", settings.longest_edge,
-                               " spacings from any particle; give a spacing of at most ",
+      throw InputError(message("hmps: the body is about ", here.thickness, " m thick at (", samples[k].place,
+                               "), too thin for ", here.count, " layers of spacing ", l0, " m, and more than ",
+                               settings.longest_edge, " spacings from any particle; give a spacing of at most ",
                                finer_spacing(here, settings, l0), " m, or fewer least_layers"));
     }
     volumes[owner[k]] += samples[k].volume;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstddef>
-#include <tuple>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -49,15 +49,21 @@ class Pseudonormals {
   }
 
  private:
+  /// An edge of a triangle: its vertices, the triangle, and the number of the edge there.
+  struct Edge {
+    Index low, high;
+    std::size_t triangle, side;
+    [[nodiscard]] auto operator<=>(const Edge&) const = default;
+  };
   /// Pairs the triangles that share an edge. At an edge of only one triangle, the triangle is paired with itself.
   void find_neighbours() {
-    std::vector<std::tuple<Index, Index, std::size_t, std::size_t>> edges;
+    std::vector<Edge> edges;
     edges.reserve(3 * corners_.size());
     beside_.resize(corners_.size());
     for (std::size_t t = 0; t < corners_.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(corners_[t][k], corners_[t][(k + 1) % 3]);
-        edges.emplace_back(low, high, t, k);
+        edges.push_back({low, high, t, k});
         beside_[t][k] = t;
       }
     std::sort(edges.begin(), edges.end());
