@@ -30,7 +30,8 @@ namespace hmps::inline HMPS_ABI {
 template <class T, int D>
 [[nodiscard]] std::array<int, 3> lattice_axes(const VectorView<T, D>& reference, double spacing) {
   std::array<int, 3> axes{};
-  std::ranges::copy(detail::LatticeCells<D>(reference, spacing).axis, axes.begin());
+  const detail::LatticeCells<D> cells(reference, spacing);
+  std::copy(cells.axis.begin(), cells.axis.end(), axes.begin());
   return axes;
 }
 

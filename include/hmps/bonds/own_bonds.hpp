@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <ranges>
 #include <tuple>
 #include <type_traits>
 #include <utility>

@@ -101,7 +101,7 @@ void for_each_cell(std::string_view line, Use&& use) {
           fail("the column '", detail::printable(name), "' is named twice; name each column once");
         table.names.emplace_back(name);
       });
-      if (std::ranges::all_of(table.names, [](const std::string& name) {
+      if (std::all_of(table.names.begin(), table.names.end(), [](const std::string& name) {
             double number{};
             return detail::parse_number(std::string_view(name), number);
           }))

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -115,8 +114,9 @@ inline void require_fields(std::size_t size, std::span<const VtkField> fields) {
 
 /// Throws `InputError` unless `names` belong to an integer field among `fields` and name each of its values.
 inline void require_names(const VtkNames& names, std::span<const VtkField> fields) {
-  const auto found = std::ranges::find_if(
-      fields, [&](const VtkField& field) { return field.name == names.field && field.type == "Int32"; });
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const VtkField& field) {
+    return field.name == names.field && field.type == "Int32";
+  });
   require(found != fields.end(), "hmps: a VTU file has names for the values of ", names.field,
           ", which is not an integer field in it; name a field that is written too");
   for (std::size_t i = 0; i < found->bytes.size() / sizeof(std::int32_t); ++i) {
@@ -156,7 +156,8 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
   arrays.head += "</DataArray>\n";
   for (const VtkNames& names : settings.names) {
     detail::require_names(names, fields);
-    detail::require(std::ranges::count(settings.names, names.field, &VtkNames::field) == 1, "hmps: the values of ",
+    const auto is_same = [&](const VtkNames& other) { return other.field == names.field; };
+    detail::require(std::count_if(settings.names.begin(), settings.names.end(), is_same) == 1, "hmps: the values of ",
                     names.field, " are named twice in a VTU file, and ParaView shows only one of the lists; join them");
     arrays.head += detail::vtk_words(names);
   }
@@ -278,15 +279,15 @@ class VtuSeries {
     if (!std::filesystem::is_regular_file(path_, missing)) return;
     const std::string text = detail::read_text(path_.string());
     for (const double listed : detail::pvd_times(text)) frames_.emplace_back(listed, file_of(frames_.size()));
-    const auto increases = [](const auto& a, const auto& b) { return detail::is_finite(b.first) && a.first < b.first; };
+    bool increases = frames_.empty() || detail::is_finite(frames_.front().first);
+    for (std::size_t k = 1; k < frames_.size(); ++k)
+      increases = increases && detail::is_finite(frames_[k].first) && frames_[k - 1].first < frames_[k].first;
     detail::require(
-        text == pvd_text(frames_) && (frames_.empty() || detail::is_finite(frames_.front().first)) &&
-            std::ranges::adjacent_find(frames_, std::not_fn(increases)) == frames_.end(),
-        "hmps: ", path_.string(),
+        text == pvd_text(frames_) && increases, "hmps: ", path_.string(),
         " cannot be resumed: it is damaged, or was not written by a series of this name; put back the file of the "
         "interrupted run, or leave out resume_at to begin anew");
     again_ = 1e-8 * std::abs(time);
-    std::erase_if(frames_, [&](const auto& frame) { return frame.first > time + again_; });
+    while (!frames_.empty() && frames_.back().first > time + again_) frames_.pop_back();  // the times increase
     if (!frames_.empty() && frames_.back().first < time - again_) again_ = -1;
   }
 

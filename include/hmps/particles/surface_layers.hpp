@@ -112,7 +112,8 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
     layer[i] = detail::sees_out<D>(to, directions, limit) ? 1 : 0;
   });
   if constexpr (!std::is_same_v<Bonded, EveryBond>)
-    if (std::ranges::all_of(layer, [](char outermost) { return outermost != 0; })) {  // a sheet, or nothing is bonded
+    if (std::all_of(layer.begin(), layer.end(),
+                    [](char outermost) { return outermost != 0; })) {  // a sheet, or nothing is bonded
       bool any = points.size() < 2;
       for (std::size_t i = 0; i < points.size() && !any; ++i)
         for_each(i, [&](Index, const Vector<double, D>&) { any = true; });
