@@ -181,12 +181,7 @@ class LatticeBonds : public Blocks<K, D> {
     detail::DisjointSets joined(n);
     detail::require(settings.radius_ratio >= 1 && settings.radius_ratio < 16, "hmps: the effective radius is ",
                     settings.radius_ratio, " spacings; on a lattice it must be at least 1 and below 16");
-    auto around = detail::cells_within<D>(settings.radius_ratio);
-    // Sorted by axes, then by slot, so that the sweeps read memory in one direction.
-    std::sort(around.begin(), around.end(), [&](const auto& a, const auto& b) {
-      return std::pair(axes_of(a), cells.key(a)) < std::pair(axes_of(b), cells.key(b));
-    });
-    for (const auto& cell : around) {
+    for (const detail::LatticeCell<D>& cell : sorted_around(cells, settings.radius_ratio)) {
       Vector<double, D> r0;
       for (int c = 0; c < D; ++c) r0[c] = settings.spacing * cell[static_cast<std::size_t>(c)];
       const double radius = settings.spacing * settings.radius_ratio;
@@ -230,6 +225,18 @@ class LatticeBonds : public Blocks<K, D> {
     this->set_standard(inside.weight, inside.A.trace() / inside.weight);
   }
 
+  /// The cells within `radius_ratio`, sorted by axes, then by slot, so that the sweeps read memory in one direction.
+  [[nodiscard]] static std::vector<detail::LatticeCell<D>> sorted_around(const detail::LatticeCells<D>& cells,
+                                                                         double radius_ratio) {
+    constexpr std::int64_t step = std::int64_t{1} << 50;  // more than twice any key, and less than a seventh of 2^63
+    auto around = detail::cells_within<D>(radius_ratio);
+    // As numbers, which are sorted elsewhere too: sorting cells would cost every program compile time.
+    std::vector<std::int64_t> places;
+    for (const auto& cell : around) places.push_back(axes_of(cell) * step + cells.key(cell));
+    std::sort(places.begin(), places.end());
+    for (std::size_t k = 0; k < around.size(); ++k) around[k] = cells.cell_of((places[k] + step / 2) % step - step / 2);
+    return around;
+  }
   /// The axes along which `cell` differs from the origin.
   [[nodiscard]] static unsigned axes_of(const detail::LatticeCell<D>& cell) {
     unsigned axes = 0;

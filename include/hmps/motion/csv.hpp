@@ -49,7 +49,7 @@ struct Table {
       for (std::size_t k = 0; k < std::min(names.size(), most); ++k)
         all += (k == 0 ? "" : ", ") + detail::printable(names[k]);
       if (names.size() > most) all += detail::message(" and ", names.size() - most, " more");
-      throw InputError(detail::message("hmps: ", source, " has no column '", name, "'; it has ", all));
+      detail::throw_input_error({"hmps: ", source, " has no column '", name, "'; it has ", all});
     }
     return static_cast<std::size_t>(found - names.begin());
   }

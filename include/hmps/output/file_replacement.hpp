@@ -43,8 +43,8 @@ inline void replace_file(std::filesystem::path path, std::string_view bytes,
   temporary += ".part";
   const auto fail = [&](const char* what, const std::string& reason) {
     std::filesystem::remove(temporary, problem);
-    throw InputError(detail::message("hmps: cannot ", what, " ", path.string(), ": ", reason,
-                                     "; check that its folder exists, its permissions and the free space"));
+    detail::throw_input_error({"hmps: cannot ", what, " ", path.string(), ": ", reason,
+                               "; check that its folder exists, its permissions and the free space"});
   };
   // Written through, a link under that name would overwrite the file to which it leads, and then take the place of
   // `path`.

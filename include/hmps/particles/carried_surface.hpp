@@ -152,12 +152,12 @@ class CarriedSurface {
       if (solve(search.points(), point, spacing, radius, found, shares)) return shares;
     }
     const std::string hint = detail::spacing_hint(search.points(), spacing, 0.5);
-    throw InputError(detail::message(
-        "hmps: point ", p, " of a carried surface, at (", point, "), lies further than 8 spacings of ", spacing,
-        " m from particles that span space; check that surface and particles belong to one body and "
-        "are in the same unit: a wall of one layer carries no surface, nor does a part that "
-        "supported_particles or `belongs` left out",
-        hint));
+    detail::throw_input_error(
+        {"hmps: point ", p, " of a carried surface, at (", point, "), lies further than 8 spacings of ", spacing,
+         " m from particles that span space; check that surface and particles belong to one body and "
+         "are in the same unit: a wall of one layer carries no surface, nor does a part that "
+         "supported_particles or `belongs` left out",
+         hint});
   }
 
   /// Writes the shares of the particles `found` within `radius`; returns false if the radius should be larger.

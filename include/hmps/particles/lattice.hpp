@@ -89,9 +89,8 @@ class InsideShape {
   [[nodiscard]] S value(const Vector<S, D>& x) const {
     const S distance = static_cast<S>(shape_(x));
     if (is_nan(distance))
-      throw InputError(
-          message("hmps: the shape is NaN at (", x,
-                  "); it must have a value in the whole box: is a size negative or NaN, or a direction zero?"));
+      throw_input_error({"hmps: the shape is NaN at (", x,
+                         "); it must have a value in the whole box: is a size negative or NaN, or a direction zero?"});
     return distance;
   }
   const F& shape_;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
-#include "hmps/bonds/detail/plausible_spacing.hpp"
 #include "hmps/bonds/detail/lattice_cells.hpp"
+#include "hmps/bonds/detail/plausible_spacing.hpp"
 #include "hmps/bonds/shape_tensor.hpp"
 #include "hmps/bonds/weight.hpp"
 #include "hmps/core/abi.hpp"
@@ -201,9 +201,9 @@ template <class T, int D, class Keep = KeepNone, class Bonded = EveryBond>
   ParticleSet left(n, [&](std::size_t j) { return present[j] != 0; });
   if (left.empty() && n > 0) {
     const std::string hint = detail::spacing_hint(points, settings.spacing, 0.15);
-    throw InputError(detail::message(
-        "hmps: supported_particles finds none among ", n, " particles: each is weakly supported or in a small piece",
-        hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint));
+    detail::throw_input_error({"hmps: supported_particles finds none among ", n,
+                               " particles: each is weakly supported or in a small piece",
+                               hint.empty() ? "; thicken the body, use a finer lattice or a lower threshold" : hint});
   }
   return left;
 }

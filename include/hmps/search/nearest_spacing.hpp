@@ -10,6 +10,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 
@@ -43,7 +44,8 @@ namespace detail {
 /// `tolerance`, as a share of it. In clouds that are not a lattice, the distances of nearest neighbours scatter by a
 /// tenth.
 template <class T, int D>
-[[nodiscard]] std::string spacing_hint(const VectorView<T, D>& points, double spacing, double tolerance = 0.01) {
+[[nodiscard]] HMPS_COLD std::string spacing_hint(const VectorView<T, D>& points, double spacing,
+                                                 double tolerance = 0.01) {
   const double found = nearest_spacing(points);
   if (found == 0 || std::abs(found / spacing - 1) < tolerance) return "";
   return message("; the nearest neighbours lie ", found, " m apart, ", found / spacing, " times the spacing of ",

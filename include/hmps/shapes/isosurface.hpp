@@ -84,8 +84,7 @@ class IsosurfaceMaker {
   /// Throws `InputError` where the shape is NaN.
   [[nodiscard]] S value(const Point& x) const {
     const S d = static_cast<S>(shape_(x));
-    if (is_nan(d))
-      throw InputError(message("hmps: the shape is NaN at (", x, "); it must have a value in the whole box"));
+    if (is_nan(d)) throw_input_error({"hmps: the shape is NaN at (", x, "); it must have a value in the whole box"});
     return std::max(d, box_(x));
   }
   [[nodiscard]] std::size_t in_plane(const Node& node) const { return node[1] * nodes_[0] + node[0]; }

@@ -21,10 +21,9 @@ template <class S = double>
   const std::string name = detail::lower_case(path);
   if (name.ends_with(".stl")) return read_stl<S>(path, settings);
   if (name.ends_with(".obj")) return read_obj<S>(path, settings);
-  throw InputError(
-      detail::message("hmps: ", path,
-                      " is neither .stl nor .obj; convert it to one of these: MeshLab and Blender read .ply, "
-                      ".off and .3mf, ParaView reads .vtp and .vtk"));
+  detail::throw_input_error({"hmps: ", path,
+                             " is neither .stl nor .obj; convert it to one of these: MeshLab and Blender read .ply, "
+                             ".off and .3mf, ParaView reads .vtp and .vtk"});
 }
 
 /// Reads a closed surface from an .stl or .obj file, as its extension says.

@@ -183,15 +183,15 @@ void require_single(const SurfaceMesh<S>& mesh, const EdgeFaults<S>& faults) {
   };
   const auto repeated = needless_repeats(mesh.triangles);
   if (!repeated.empty())
-    throw InputError(message("hmps: ", mesh.source, " has ", mesh.triangles.size(), " triangles, of which ",
-                             repeated.size(), " are repeated, the first at (", middle(repeated.front()),
-                             "); call drop_repeated, or delete the duplicate faces"));
+    throw_input_error({"hmps: ", mesh.source, " has ", mesh.triangles.size(), " triangles, of which ", repeated.size(),
+                       " are repeated, the first at (", middle(repeated.front()),
+                       "); call drop_repeated, or delete the duplicate faces"});
   const auto hollow = double_sided(mesh.triangles, mesh.vertices.size());
   if (!hollow.empty())
-    throw InputError(message("hmps: ", mesh.source, " has a part of ", hollow.size(), " triangles, at (",
-                             middle(hollow.front()),
-                             "), that is double-sided: each triangle occurs in both orientations, so that the part "
-                             "encloses nothing; keep the outer triangle of each pair in a mesh editor"));
+    throw_input_error({"hmps: ", mesh.source, " has a part of ", hollow.size(), " triangles, at (",
+                       middle(hollow.front()),
+                       "), that is double-sided: each triangle occurs in both orientations, so that the part "
+                       "encloses nothing; keep the outer triangle of each pair in a mesh editor"});
 }
 
 /// Throws `InputError` unless neighbouring triangles have consistent orientation.

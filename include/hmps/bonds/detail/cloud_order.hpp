@@ -96,10 +96,10 @@ struct CloudOrder {
     PerAxis<int> axis;
     std::iota(axis.begin(), axis.end(), 0);
     std::swap(axis[along], axis[D - 1]);
-    std::sort(axis.begin(), axis.end() - 1, [&](int a, int b) {
-      const auto ea = extent[static_cast<std::size_t>(a)], eb = extent[static_cast<std::size_t>(b)];
-      return ea != eb ? ea > eb : (along == 0 ? a > b : a < b);
-    });
+    if constexpr (D == 3) {
+      const auto first = extent[static_cast<std::size_t>(axis[0])], second = extent[static_cast<std::size_t>(axis[1])];
+      if (first != second ? first < second : (along == 0) == (axis[0] < axis[1])) std::swap(axis[0], axis[1]);
+    }
     return axis;
   }
 

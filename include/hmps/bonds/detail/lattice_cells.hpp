@@ -13,6 +13,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/detail/resolution.hpp"
@@ -59,14 +60,13 @@ struct LatticeCells {
       for (int c = 0; c < D; ++c) {
         const double place = (double(reference(i, c)) - double(reference(0, c))) / spacing;
         if (!is_finite(place) || std::abs(place) >= 1e6)
-          throw InputError(message("hmps: particle ", i, " lies ", place,
-                                   " spacings from particle 0; a lattice may span 1e6",
-                                   spacing_hint(reference, spacing)));
+          throw_input_error({"hmps: particle ", i, " lies ", place, " spacings from particle 0; a lattice may span 1e6",
+                             spacing_hint(reference, spacing)});
         const double nearest = std::round(place);
         if (std::abs(place - nearest) >= 1e-3)
-          throw InputError(message("hmps: component ", c, " of particle ", i, " lies ", place,
-                                   " spacings from particle 0, not on the cubic lattice",
-                                   not_this_lattice(reference, spacing)));
+          throw_input_error({"hmps: component ", c, " of particle ", i, " lies ", place,
+                             " spacings from particle 0, not on the cubic lattice",
+                             not_this_lattice(reference, spacing)});
         cell[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(nearest);
       }
     std::iota(order.begin(), order.end(), Index{0});
@@ -75,8 +75,8 @@ struct LatticeCells {
     std::sort(order.begin(), order.end(), [this](Index a, Index b) { return key(cell[a]) < key(cell[b]); });
     for (std::size_t s = 1; s < order.size(); ++s)
       if (cell[order[s]] == cell[order[s - 1]])
-        throw InputError(message("hmps: particles ", order[s - 1], " and ", order[s],
-                                 " lie at the same place; remove one of them", spacing_hint(reference, spacing)));
+        throw_input_error({"hmps: particles ", order[s - 1], " and ", order[s],
+                           " lie at the same place; remove one of them", spacing_hint(reference, spacing)});
   }
 
   /// A key that sorts cells row by row; the key of a cell plus an offset is the sum of both keys.
@@ -85,6 +85,17 @@ struct LatticeCells {
     for (int d = 0; d < D; ++d)
       k = k * (std::int64_t{1} << 21) + c[static_cast<std::size_t>(axis[static_cast<std::size_t>(d)])];
     return k;
+  }
+  /// The cell whose key is `k`, if its coordinates lie within a million.
+  [[nodiscard]] Cell cell_of(std::int64_t k) const {
+    constexpr std::int64_t base = std::int64_t{1} << 21;
+    Cell c;
+    for (int d = D - 1; d >= 0; --d) {
+      const std::int64_t digit = ((k + base / 2) & (base - 1)) - base / 2;
+      c[static_cast<std::size_t>(axis[static_cast<std::size_t>(d)])] = static_cast<std::int32_t>(digit);
+      k = (k - digit) / base;
+    }
+    return c;
   }
 
  private:
@@ -95,7 +106,7 @@ struct LatticeCells {
   }
   /// Advice for particles that are not on the lattice of `spacing`.
   template <class T>
-  [[nodiscard]] static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
+  [[nodiscard]] HMPS_COLD static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
     constexpr double coarse = 0.3;  // rounding alone changes the distance of nearest neighbours by less
     if (spacing_hint(reference, spacing, coarse).empty()) require_resolved(reference, spacing, 1e-3);
     const std::string hint = spacing_hint(reference, spacing);
@@ -128,10 +139,10 @@ struct LatticeCells {
       if (rows[static_cast<std::size_t>(d)] < rows[static_cast<std::size_t>(fastest)]) fastest = d;
     std::iota(axis.begin(), axis.end(), 0);
     std::swap(axis[static_cast<std::size_t>(fastest)], axis[D - 1]);
-    std::sort(axis.begin(), axis.end() - 1, [&](int a, int b) {
-      const auto ea = extent[static_cast<std::size_t>(a)], eb = extent[static_cast<std::size_t>(b)];
-      return ea != eb ? ea > eb : a < b;
-    });
+    if constexpr (D == 3) {
+      const auto first = extent[static_cast<std::size_t>(axis[0])], second = extent[static_cast<std::size_t>(axis[1])];
+      if (first != second ? first < second : axis[0] > axis[1]) std::swap(axis[0], axis[1]);
+    }
   }
 };
 

@@ -94,15 +94,16 @@ class LatticeRows {
       const Row* const first = begin(block * directions);
       const auto before = static_cast<std::uint32_t>(rows.size());
       const auto count = static_cast<std::size_t>(begin((block + 1) * directions) - first);
-      if (cost_of_window * static_cast<double>(merged.size()) < static_cast<double>(count)) {
-        rows.insert(rows.end(), merged.begin(), merged.end());
+      const bool windows = cost_of_window * static_cast<double>(merged.size()) < static_cast<double>(count);
+      if (windows) {
         first_places_[block] = static_cast<std::uint32_t>(places_.size());
         places_.insert(places_.end(), places.begin(), places.end());
       } else {
-        rows.insert(rows.end(), first, first + count);
         for (unsigned k = 0; k < directions; ++k)
           ends[k] = static_cast<std::uint32_t>(end(block * directions + k) - first);
       }
+      const Row* const from = windows ? merged.data() : first;
+      rows.insert(rows.end(), from, from + (windows ? merged.size() : count));
       for (const std::uint32_t e : ends) group.push_back(before + e);
     }
     rows.shrink_to_fit();

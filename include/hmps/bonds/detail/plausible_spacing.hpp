@@ -46,11 +46,11 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
   };
   const double mean = static_cast<double>(sum) / static_cast<double>(samples);
   if (mean > 4 * usual)
-    throw InputError(message("hmps: particle ", fullest, " has ", most, " neighbours within the effective radius of ",
-                             radius, " m, ", samples, " particles that were sampled have ", std::round(mean),
-                             " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
-                             "; the typical distance to the nearest particle is ", nearest(),
-                             " m: give a spacing of that size, in the unit of the positions"));
+    throw_input_error({"hmps: particle ", fullest, " has ", most, " neighbours within the effective radius of ", radius,
+                       " m, ", samples, " particles that were sampled have ", std::round(mean),
+                       " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
+                       "; the typical distance to the nearest particle is ", nearest(),
+                       " m: give a spacing of that size, in the unit of the positions"});
   if (also_alone && 10 * alone >= 9 * samples) {
     const double apart = nearest();
     const std::string remedy = apart < 1.5 * settings.spacing
@@ -60,10 +60,10 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                                    : message("a spacing of ", settings.spacing,
                                              " m looks wrong; give a spacing of that size, in the unit of "
                                              "the positions");
-    throw InputError(message("hmps: particle ", lonely, " has 0 neighbours within the effective radius of ", radius,
-                             " m, and so have ", alone, " of ", samples,
-                             " particles that were sampled; the typical distance to the nearest particle is ", apart,
-                             " m: ", remedy));
+    throw_input_error({"hmps: particle ", lonely, " has 0 neighbours within the effective radius of ", radius,
+                       " m, and so have ", alone, " of ", samples,
+                       " particles that were sampled; the typical distance to the nearest particle is ", apart,
+                       " m: ", remedy});
   }
 }
 

@@ -93,8 +93,7 @@ class FittedField {
   /// Signed distance in m, negative inside. Throws `InputError` where the shape is NaN.
   [[nodiscard]] double operator()(const Point& x) const {
     const double d = shape_(x);
-    if (is_nan(d))
-      throw InputError(message("hmps: the shape is NaN at (", x, "); it must have a value in the whole box"));
+    if (is_nan(d)) throw_input_error({"hmps: the shape is NaN at (", x, "); it must have a value in the whole box"});
     return std::max(d, box_(x));
   }
 

@@ -77,10 +77,10 @@ void require_no_part_alone(const FittedField<D>& field, const FittedCloud<D>& cl
     const auto& place = samples[nearest].place;
     if (volume < std::pow(l0, D) || !lies_across_gap(field, place_of_particle(nearest), place)) continue;
     const Layering here = field.layering(place);
-    throw InputError(message("hmps: a part of the body at (", place, "), about ", here.thickness,
-                             " m thick, holds no particle, and the nearest one lies across a gap; give a spacing of at "
-                             "most ",
-                             finer_spacing(here, settings, l0), " m, fewer least_layers, or a body without that part"));
+    throw_input_error({"hmps: a part of the body at (", place, "), about ", here.thickness,
+                       " m thick, holds no particle, and the nearest one lies across a gap; give a spacing of at "
+                       "most ",
+                       finer_spacing(here, settings, l0), " m, fewer least_layers, or a body without that part"});
   }
 }
 
@@ -114,10 +114,10 @@ template <int D>
       require(!here.thick, "hmps: no particle lies within ", settings.longest_edge, " spacings of (", samples[k].place,
               "), in a part of the body that is not a wall; give a spacing below ", l0,
               " m, or a longest_edge of a few spacings");
-      throw InputError(message("hmps: the body is about ", here.thickness, " m thick at (", samples[k].place,
-                               "), too thin for ", here.count, " layers of spacing ", l0, " m, and more than ",
-                               settings.longest_edge, " spacings from any particle; give a spacing of at most ",
-                               finer_spacing(here, settings, l0), " m, or fewer least_layers"));
+      throw_input_error({"hmps: the body is about ", here.thickness, " m thick at (", samples[k].place,
+                         "), too thin for ", here.count, " layers of spacing ", l0, " m, and more than ",
+                         settings.longest_edge, " spacings from any particle; give a spacing of at most ",
+                         finer_spacing(here, settings, l0), " m, or fewer least_layers"});
     }
     volumes[owner[k]] += samples[k].volume;
   }
