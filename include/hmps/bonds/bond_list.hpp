@@ -80,7 +80,7 @@ class BondList : public Blocks<K, D> {
   template <class T, BondNeighbours N, class W>
   requires(!std::convertible_to<const N&, BondSettings>)
       BondList(const VectorView<T, D>& reference, const N& neighbours, const W& weights)
-      : BondList(reference, detail::OwnBonds::make<K>(reference.size(), neighbours, weights)) {}
+      : BondList(reference, detail::OwnBonds<K>::make(reference.size(), neighbours, weights)) {}
 
   /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative to `i` (m) and
   /// weight.
@@ -205,7 +205,7 @@ class BondList : public Blocks<K, D> {
   }
 
   template <class T>
-  BondList(const VectorView<T, D>& reference, const detail::OwnBonds& own)
+  BondList(const VectorView<T, D>& reference, const detail::OwnBonds<K>& own)
       : Base(reference, checked_order(reference, {.spacing = own.spacing(reference)})) {
     set_bonds(own.longest(reference), own.spacing(reference), [&](Index i, const auto& keep) {
       for (const auto& bond : own[i])

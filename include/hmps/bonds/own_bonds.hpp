@@ -59,6 +59,7 @@ concept BondNeighbours = detail::BondPairs<N> || detail::NeighbourLists<N>;
 namespace detail {
 
 /// User-defined bonds after all checks, from both ends, sorted by particle and neighbour regardless of the given order.
+template <class K>
 class OwnBonds {
  public:
   struct Bond {
@@ -69,7 +70,7 @@ class OwnBonds {
   /// For `size` particles. `weights` is one weight for all bonds, or one number per bond in the shape of `neighbours`,
   /// or a callable `w(i, j)`, which must be symmetric. Weights must lie between 1e-30 and 1e30, and not vanish in the
   /// scalar type `K`. The force does not depend on their common factor.
-  template <class K, BondNeighbours N, class W>
+  template <BondNeighbours N, class W>
   static OwnBonds make(std::size_t size, const N& neighbours, const W& weights) {
     OwnBonds own(size);
     if constexpr (BondPairs<N>) {
@@ -78,7 +79,7 @@ class OwnBonds {
                 weights.size(), " weights; give one for each");
       for (std::size_t k = 0; k < neighbours.size(); ++k) {
         const auto i = own.checked(std::get<0>(neighbours[k]), k), j = own.checked(std::get<1>(neighbours[k]), k);
-        const double w = own.weight<K>(weights, i, j, [&] {
+        const double w = own.weight(weights, i, j, [&] {
           if constexpr (is_given<W>)
             return weights[k];
           else
@@ -91,7 +92,7 @@ class OwnBonds {
     } else {
       require(neighbours.size() == size, "hmps: there are ", neighbours.size(), " lists of neighbours but ", size,
               " particles; give one for each, empty or not");
-      for (std::size_t i = 0; i < size; ++i) own.add_list<K>(i, neighbours[i], weights);
+      for (std::size_t i = 0; i < size; ++i) own.add_list(i, neighbours[i], weights);
       own.settle();
       own.require_both_ends();
     }
@@ -137,7 +138,7 @@ class OwnBonds {
     return index;
   }
 
-  template <class K, class W, class Given>
+  template <class W, class Given>
   [[nodiscard]] static double weight(const W& weights, std::size_t i, std::size_t j, Given&& given) {
     const double w = [&] {
       if constexpr (std::is_arithmetic_v<W>)
@@ -162,7 +163,7 @@ class OwnBonds {
     return w;
   }
 
-  template <class K, class L, class W>
+  template <class L, class W>
   void add_list(std::size_t i, const L& list, const W& weights) {
     if constexpr (is_given<W>)
       require(weights.size() == bonds_.size() && weights[i].size() == list.size(), "hmps: particle ", i, " has ",
@@ -171,7 +172,7 @@ class OwnBonds {
       const auto j = static_cast<std::size_t>(list[k]);
       require(j < bonds_.size(), "hmps: particle ", i, " has the neighbour ", list[k], " but there are only ",
               bonds_.size(), " particles; indices start at 0");
-      const double w = weight<K>(weights, i, j, [&] {
+      const double w = weight(weights, i, j, [&] {
         if constexpr (is_given<W>)
           return weights[i][k];
         else

@@ -29,7 +29,7 @@ struct NeighbourList {
   /// The neighbours of particle `i`. Throws `InputError` for a particle that does not exist.
   [[nodiscard]] std::span<const Index> operator[](std::size_t i) const {
     detail::require_index(i, size(), "particle", "the list of neighbours has");
-    return std::span(neighbour).subspan(offset[i], offset[i + 1] - offset[i]);
+    return {neighbour.data() + offset[i], offset[i + 1] - offset[i]};
   }
 };
 

@@ -90,7 +90,7 @@ class BasicOrganPairs {
   }
   /// The members of organ `o`, ascending.
   [[nodiscard]] std::span<const Member> members_of(std::size_t o) const {
-    return std::span(members_).subspan(organs_[o].begin, organs_[o].end - organs_[o].begin);
+    return {members_.data() + organs_[o].begin, organs_[o].end - organs_[o].begin};
   }
   /// The particles of organ `o` in `role`, ascending.
   [[nodiscard]] std::vector<Index> particles_of(std::size_t o, std::uint8_t role) const {
