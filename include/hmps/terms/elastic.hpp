@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
@@ -40,12 +41,19 @@ HMPS_COLD void require_stress(const BlockOfParticles<K, D>& particles, const Mat
     require(all_finite(stress), "hmps: the law of particle ", i,
             " gives a stress that is not finite at a strain of a thousandth: P is (by columns) ", stress,
             " Pa; check its parameters and formula");
-    const Matrix<double, D> kirchhoff = stress * gradient.transpose();
-    require((kirchhoff - kirchhoff.transpose()).norm() <= most * kirchhoff.norm(), "hmps: the law of particle ", i,
+    Matrix<double, D> kirchhoff, turning, strain;
+    for (int c = 0; c < D; ++c)
+      for (int r = 0; r < D; ++r) {
+        kirchhoff(r, c) = 0;
+        for (int k = 0; k < D; ++k) kirchhoff(r, c) += stress(r, k) * gradient(c, k);
+        strain(r, c) = gradient(r, c) - (r == c ? 1 : 0);
+      }
+    for (int k = 0; k < D * D; ++k) turning(k % D, k / D) = kirchhoff(k % D, k / D) - kirchhoff(k / D, k % D);
+    const auto norm = [](const Matrix<double, D>& M) { return std::sqrt(contract<double, D>(M, M)); };
+    require(norm(turning) <= most * norm(kirchhoff), "hmps: the law of particle ", i,
             " gives a stress that exerts a torque: P F^T is (by columns) ", kirchhoff,
             " Pa, and must be symmetric; is S symmetric, or is P returned instead of S, or transposed?");
-    const Matrix<double, D> strain = gradient - Matrix<double, D>::Identity();
-    require(rise.cwiseProduct(strain).sum() >= -most * rise.norm() * strain.norm(), "hmps: the law of particle ", i,
+    require(contract<double, D>(rise, strain) >= -most * norm(rise) * norm(strain), "hmps: the law of particle ", i,
             " gives a stress that falls where the strain grows: at F - 1 = (by columns) ", strain, " P rises by ", rise,
             " Pa, so the undeformed state is unstable; is the sign of the stress right?");
   }

@@ -19,7 +19,9 @@ HMPS_COLD void require_gradient(const Matrix<double, D>& F, Index i) {
   if (!all_finite(F))
     throw StateError(message("hmps: contact found the deformation gradient of particle ", i, " to be (by columns) ", F,
                              "; the run has become unstable: try a shorter step or a softer penalty"));
-  require(!F.isZero(0), "hmps: the deformation gradient of particle ", i,
+  bool zero = true;
+  for (int k = 0; k < D * D; ++k) zero = zero && F(k % D, k / D) == 0;
+  require(!zero, "hmps: the deformation gradient of particle ", i,
           " is zero, so that contact sees no wall there: is `record(F)` among the terms, and are they evaluated before "
           "contact? Particles that do not deform need the identity");
 }
