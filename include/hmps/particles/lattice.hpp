@@ -103,10 +103,9 @@ template <class S, int D>
   require(detail::is_finite(spacing) && spacing > S(0), "hmps: the lattice spacing is ", spacing,
           "; give a positive number of metres");
   require(detail::all_finite(origin), "hmps: the lattice origin is (", origin, "); coordinates must be finite");
-  require(
-      detail::all_finite(box.lower) && detail::all_finite(box.upper) && (box.lower.array() <= box.upper.array()).all(),
-      "hmps: the box to fill reaches from (", box.lower, ") to (", box.upper,
-      "); give finite corners in metres, the lower one first");
+  require(detail::all_finite(box.lower) && detail::all_finite(box.upper) && none_above<S, D>(box.lower, box.upper),
+          "hmps: the box to fill reaches from (", box.lower, ") to (", box.upper,
+          "); give finite corners in metres, the lower one first");
   LatticeSites<D> sites;
   sites.spacing = static_cast<double>(spacing);
   sites.origin = origin.template cast<double>();

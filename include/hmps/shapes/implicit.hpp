@@ -9,6 +9,7 @@
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/direction.hpp"
+#include "hmps/core/detail/finite.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -85,7 +86,7 @@ struct Box {
   Vector<S, D> upper;  ///< m, each component above that of `lower`
   [[nodiscard]] S operator()(const Vector<S, D>& x) const {
     const Vector<S, D> beyond = (lower - x).cwiseMax(x - upper);
-    return detail::distance_if((lower.array() <= upper.array()).all(),
+    return detail::distance_if(detail::none_above<S, D>(lower, upper),
                                beyond.cwiseMax(S(0)).norm() + std::min(beyond.maxCoeff(), S(0)));
   }
 };

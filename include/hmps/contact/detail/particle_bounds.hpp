@@ -109,6 +109,10 @@ class ParticleBounds {
     bool is_late;
     Index flat;  // the first particle without an inverse of F
   };
+  template <class T>
+  HMPS_COLD static void fill(std::vector<T>& numbers, std::size_t count, const T& number) {
+    numbers.assign(count, number);
+  }
   [[nodiscard]] HMPS_INLINE Point expected(std::size_t i, S calls) const { return place_[i] + calls * drift_[i]; }
   void move_to(std::size_t i, const Point& place, bool is_first, const CheckInterval& interval);
   [[nodiscard]] S update_metric(std::size_t i, const Matrix<Lanes<S>, D>& A, std::size_t lane);
@@ -126,14 +130,14 @@ class ParticleBounds {
 
 template <class S, int D>
 void ParticleBounds<S, D>::resize(std::size_t count) {
-  place_.assign(count, Point::Zero());
-  drift_.assign(count, Point::Zero());
-  metric_.assign(count, Matrix<S, D>::Identity());
-  reach_.assign(count, S(0));
-  compression_.assign(count, S(-1));
-  deviation_.assign(count, S(0));
-  travel_.assign(count, S(0));
-  strain_.assign(count, S(0));
+  fill<Point>(place_, count, Point::Zero());
+  fill<Point>(drift_, count, Point::Zero());
+  fill<Matrix<S, D>>(metric_, count, Matrix<S, D>::Identity());
+  fill(reach_, count, S(0));
+  fill(compression_, count, S(-1));
+  fill(deviation_, count, S(0));
+  fill(travel_, count, S(0));
+  fill(strain_, count, S(0));
   chunks_.resize((count + chunk - 1) / chunk);
 }
 

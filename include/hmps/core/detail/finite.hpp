@@ -70,4 +70,12 @@ template <class Derived>
   return true;
 }
 
+/// Whether no component of `a` is larger than that of `b`; false for NaN.
+template <class T, int D>
+[[nodiscard]] bool none_above(const Vector<T, D>& a, const Vector<T, D>& b) {
+  for (int c = 0; c < D; ++c)
+    if (!(a[c] <= b[c])) return false;
+  return true;
+}
+
 }  // namespace hmps::inline HMPS_ABI::detail
