@@ -192,9 +192,9 @@ def check_lattice(alone, killed, data):
 def check_fitted(alone, killed):
     for out in (alone, killed):
         out.mkdir()
-        shutil.copy(fitted, out)
-    run(alone, "--threads", "2")
-    kill_behind_checkpoint(killed, 0.0, "--threads", "2")
+        shutil.copy(fitted, out)  # without --resume, the organs would be fitted again
+    run(alone, "--threads", "2", "--resume")
+    kill_behind_checkpoint(killed, 0.0, "--threads", "2", "--resume")
     run(killed, "--threads", "1", "--resume")
     (killed / "X1/checkpoint.bin.part").unlink(missing_ok=True)
     compare("fitted particles, killed and resumed with another number of threads", alone, killed)
