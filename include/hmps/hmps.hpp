@@ -98,6 +98,7 @@
 #include "hmps/shapes/mesh_distance.hpp"
 #include "hmps/shapes/obj_file.hpp"
 #include "hmps/shapes/redistanced.hpp"
+#include "hmps/shapes/solid_surfaces.hpp"
 #include "hmps/shapes/stl_file.hpp"
 #include "hmps/shapes/surface_file.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
