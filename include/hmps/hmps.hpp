@@ -71,6 +71,7 @@
 #include "hmps/motion/csv.hpp"
 #include "hmps/motion/hold.hpp"
 #include "hmps/motion/keyframes.hpp"
+#include "hmps/motion/mirror_images.hpp"
 #include "hmps/motion/pose.hpp"
 #include "hmps/motion/rigid_motion.hpp"
 #include "hmps/output/file_replacement.hpp"
