@@ -78,48 +78,151 @@ void parse_binary_stl(std::string_view bytes, double scale, SurfaceMesh<S>& mesh
   }
 }
 
+/// Reads an ASCII STL file word by word: blanks and line ends separate words alike. Only the name of a solid ends with
+/// its line, or before a facet that begins on it.
 template <class S>
-void parse_ascii_stl(std::string_view text, const SurfaceFileSettings& settings, SurfaceMesh<S>& mesh) {
-  TextPlace place{mesh.source};
-  std::array<Vector<S, 3>, 3> corners;
-  std::size_t corner = 0;
-  bool in_facet = false;
-  bool in_solid = false;
-  while (!text.empty()) {
-    ++place.line;
-    std::string_view rest = take_line(text);
-    std::string word = lower_case(take_word(rest));
-    if (word == "end") word += lower_case(take_word(rest));
-    if (word == "facet") {
-      if (in_facet) place.fail("a facet begins before the last one has ended");
-      in_facet = true;
-      corner = 0;
-    } else if (word == "vertex") {
-      if (!in_facet) place.fail("a vertex outside of a facet");
-      if (corner == 3) place.fail("a facet has more than three vertices; STL holds triangles only");
-      corners[corner++] = take_point<S>(rest, settings.scale, place);
-    } else if (word == "endfacet") {
-      if (!in_facet || corner != 3) place.fail("a facet ends after ", corner, " vertices; it needs three");
-      add_triangle(mesh, corners);
-      in_facet = false;
-    } else if (word == "solid" || word == "endsolid") {
-      if (in_facet) place.fail("'", word, "' within a facet");
-      in_solid = word == "solid";
-    } else if (!word.empty() && word != "outer" && word != "endloop") {
-      place.fail("'", printable(word), "' is not a keyword of an STL file");
+class AsciiStlParser {
+ public:
+  AsciiStlParser(SurfaceMesh<S>& mesh, const SurfaceFileSettings& settings)
+      : mesh_(mesh), settings_(settings), place_{mesh.source} {}
+
+  void operator()(std::string_view text) {
+    text_ = text;
+    for (std::string_view word = next(); !word.empty(); word = next()) {
+      std::string keyword = lower_case(word);
+      if (keyword == "end") keyword += lower_case(next());
+      take(keyword);
+    }
+    if (in_facet_) place_.fail("the file ends within a facet; it is cut off");
+    // A closed surface is complete in any case.
+    if (in_solid_ && !settings_.closed) place_.fail("the file ends without 'endsolid'; it is cut off");
+  }
+
+ private:
+  /// Removes and returns the next word; empty at the end.
+  std::string_view next() {
+    std::size_t from = 0;
+    for (; from < text_.size() && is_blank(text_[from]); ++from)
+      if (text_[from] == '\n') ++line_;
+    std::size_t to = from;
+    while (to < text_.size() && !is_blank(text_[to])) ++to;
+    const std::string_view word = text_.substr(from, to - from);
+    text_.remove_prefix(to);
+    if (!word.empty()) place_.line = line_;
+    return word;
+  }
+
+  void take(const std::string& keyword) {
+    if (keyword == "vertex") {
+      require_facet(keyword);
+      if (corner_ == 3) place_.fail("a facet has more than three vertices; STL holds triangles only");
+      take_vertex();
+    } else if (keyword == "facet") {
+      if (in_facet_) place_.fail("a facet begins before the last one has ended");
+      in_facet_ = in_solid_ = true;
+      corner_ = 0;
+    } else if (keyword == "normal") {
+      require_facet(keyword);
+      skip_normal();
+    } else if (keyword == "outer") {
+      require_facet(keyword);
+      if (lower_case(next()) != "loop") place_.fail("'outer' is not followed by 'loop'");
+    } else if (keyword == "endloop") {
+      require_facet(keyword);
+    } else if (keyword == "endfacet") {
+      if (!in_facet_ || corner_ != 3) place_.fail("a facet ends after ", corner_, " vertices; it needs three");
+      add_triangle(mesh_, corners_);
+      in_facet_ = false;
+    } else if (keyword == "solid" || keyword == "endsolid") {
+      if (in_facet_) place_.fail("'", keyword, "' within a facet");
+      in_solid_ = keyword == "solid";
+      skip_name();
+    } else {
+      fail_at(keyword);
     }
   }
-  if (in_facet) place.fail("the file ends within a facet; it is cut off");
-  // A closed surface is complete in any case.
-  if (in_solid && !settings.closed) place.fail("the file ends without 'endsolid'; it is cut off");
-}
+
+  void take_vertex() {
+    const std::size_t line = place_.line;
+    for (int c = 0; c < 3; ++c) {
+      double number{};
+      const std::string_view word = next();
+      if (parse_number(word, number) && is_finite(number)) {
+        corners_[corner_][c] = static_cast<S>(settings_.scale * number);
+        continue;
+      }
+      if (!ends_numbers(word)) place_.fail("'", printable(word), "' is not a finite number");
+      place_.line = line;
+      place_.fail("a vertex has only ", c, " coordinates");
+    }
+    ++corner_;
+  }
+
+  /// Normals are not used, and some programs write NaN in them.
+  void skip_normal() {
+    const std::size_t line = place_.line;
+    for (int c = 0; c < 3; ++c)
+      if (ends_numbers(next())) {
+        place_.line = line;
+        place_.fail("a normal has only ", c, " components");
+      }
+  }
+
+  void skip_name() {
+    const std::string_view line = text_.substr(0, text_.find('\n'));
+    std::string_view rest = line;
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+      std::string_view behind = rest;
+      const std::string keyword = lower_case(take_word(behind));
+      if (lower_case(word) == "facet" && (keyword == "normal" || keyword == "outer" || keyword == "vertex")) {
+        text_.remove_prefix(static_cast<std::size_t>(word.data() - text_.data()));
+        return;
+      }
+    }
+    text_.remove_prefix(line.size());
+  }
+
+  void require_facet(const std::string& keyword) const {
+    if (!in_facet_) place_.fail("'", keyword, "' outside of a facet");
+  }
+
+  [[noreturn]] void fail_at(const std::string& word) const {
+    double number{};
+    if (parse_number(std::string_view(word), number))
+      place_.fail("the number '", printable(word),
+                  "' is one too many: a vertex has three coordinates, and a normal three components; write decimal "
+                  "points, not commas");
+    place_.fail("'", printable(word), "' is not a keyword of an STL file");
+  }
+
+  [[nodiscard]] static bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+  /// Whether `word` is one that may follow the numbers of a vertex or a normal, or the end of the file.
+  [[nodiscard]] static bool ends_numbers(std::string_view word) {
+    if (word.empty()) return true;
+    const char first = word.front();
+    if (std::string_view("vofeVOFE").find(first) == std::string_view::npos) return false;
+    const std::string keyword = lower_case(word);
+    return keyword == "vertex" || keyword == "outer" || keyword == "facet" || keyword.starts_with("end");
+  }
+
+  SurfaceMesh<S>& mesh_;
+  const SurfaceFileSettings& settings_;
+  TextPlace place_;
+  std::string_view text_;
+  std::size_t line_ = 1;
+  std::array<Vector<S, 3>, 3> corners_;
+  std::size_t corner_ = 0;
+  bool in_facet_ = false;
+  bool in_solid_ = false;
+};
 
 }  // namespace detail
 
-/// Reads a surface from an STL file, ASCII or binary, with one solid or several. Vertices are welded (`weld`), repeated
-/// triangles are dropped (`drop_repeated`), and the surface is checked (`require_closed`) unless `settings.closed` is
-/// false. Throws `InputError`, with the line (ASCII) or the byte (binary), if the file cannot be read, and if more
-/// binary triangles follow than the header announces.
+/// Reads a surface from an STL file, ASCII or binary, with one solid or several. In an ASCII file the name of a solid
+/// runs to the end of its line or to a facet on it; elsewhere lines have no meaning, and normals no effect. Vertices
+/// are welded (`weld`), repeated triangles are dropped (`drop_repeated`), and the surface is checked (`require_closed`)
+/// unless `settings.closed` is false. Throws `InputError`, with the line (ASCII) or the byte (binary), if the file
+/// cannot be read, and if more binary triangles follow than the header announces.
 template <class S = double>
 [[nodiscard]] SurfaceMesh<S> read_stl(const std::string& path, const SurfaceFileSettings& settings) {
   detail::validate(settings, path);
@@ -128,7 +231,7 @@ template <class S = double>
   mesh.source = path;
   if (detail::is_ascii_stl(text)) {
     detail::clean_text(text, path);
-    detail::parse_ascii_stl(text, settings, mesh);
+    detail::AsciiStlParser<S>(mesh, settings)(text);
   } else {
     detail::parse_binary_stl(text, settings.scale, mesh);
   }

@@ -6,10 +6,24 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "../../reference/message_of.hpp"
 
 namespace stl_file_test {
 
+using hmps_test::message_of;
 using namespace hmps::detail;
+
+/// The corners in an ASCII file, three for each triangle.
+std::vector<hmps::Vector<double, 3>> corners_in(const std::string& text, bool closed = false) {
+  hmps::SurfaceMesh<double> mesh;
+  mesh.source = "a.stl";
+  const hmps::SurfaceFileSettings settings{.closed = closed};
+  AsciiStlParser<double>(mesh, settings)(text);
+  return mesh.vertices;
+}
 
 /// A binary file of `triangles` zeros that announces `count`.
 std::string binary(std::uint32_t count, std::size_t triangles, std::string name = "binary") {
@@ -37,6 +51,59 @@ TEST(StlFile, CountsTrianglesOfBinaryFiles) {
   EXPECT_THROW((void)count_binary_stl(damaged, "a.stl"), hmps::InputError);
   EXPECT_THROW((void)count_binary_stl(binary(3, 2), "a.stl"), hmps::InputError);
   EXPECT_THROW((void)count_binary_stl(binary(0xffffffffu, 2), "a.stl"), hmps::InputError);
+}
+
+const std::string one_facet =
+    "facet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 5 6\nvertex 7 8 9.5\nendloop\nendfacet\n";
+
+TEST(StlFile, ReadsWordsWhateverTheLinesOfAnAsciiFile) {
+  const std::string usual = "solid a\n" + one_facet + one_facet + "endsolid a\n";
+  const auto expected = corners_in(usual);
+  ASSERT_EQ(expected.size(), 6U);
+  EXPECT_EQ(expected[2], (hmps::Vector<double, 3>(7, 8, 9.5)));
+  const auto joined_after = [](std::string text, const std::string& word, char by) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+      for (std::size_t k = at; k < at + word.size(); ++k)
+        if (text[k] == '\n') text[k] = by;
+    return text;
+  };
+  for (const std::string& text :
+       {joined_after(usual, "\n", ' '), joined_after(usual, "loop\n", '\t'), joined_after(usual, "endfacet\n", ' '),
+        joined_after(usual, "solid a\n", ' '), joined_after(usual, " ", '\n'),
+        "solid a\n" + one_facet + "endsolid a solid b " + one_facet + "endsolid b",
+        "solid facet\n" + one_facet + one_facet + "endsolid facet normals\n",
+        "solid\n" + one_facet + "facet normal nan -nan(ind) 1.#QNAN\n" + one_facet.substr(19) + "endsolid\n"})
+    EXPECT_EQ(corners_in(text), expected) << text;
+  std::string one_number_a_line = usual;
+  for (std::size_t at = usual.find('\n'); at < usual.rfind("endsolid"); ++at)
+    if (one_number_a_line[at] == ' ') one_number_a_line[at] = '\n';
+  EXPECT_EQ(corners_in(one_number_a_line), expected);
+}
+
+// What does not belong to an ASCII file used to be dropped with the rest of its line.
+TEST(StlFile, NamesTheLineOfWhatDoesNotBelongToAnAsciiFile) {
+  const auto replaced = [](const std::string& from, const std::string& to) {
+    std::string text = "solid a\n" + one_facet + "endsolid a\n";
+    return text.replace(text.find(from), from.size(), to);
+  };
+  for (const auto& [text, part] :
+       {std::pair{replaced("4 5 6", "4 5 6 7"), "line 5: the number '7' is one too many"},
+        std::pair{replaced("4 5 6", "4 5, 6"), "line 5: '5,' is not a finite number"},
+        std::pair{replaced("4 5 6", "4 5"), "line 5: a vertex has only 2 coordinates"},
+        std::pair{replaced("4 5 6", "4 nan 6"), "line 5: 'nan' is not a finite number"},
+        std::pair{replaced("0 0 1", "0 0"), "line 2: a normal has only 2 components"},
+        std::pair{replaced("0 0 1", "0 0 1 0"), "line 2: the number '0' is one too many"},
+        std::pair{replaced("outer loop", "outer"), "'outer' is not followed by 'loop'"},
+        std::pair{replaced("outer loop", "outer loop 1"), "line 3: the number '1' is one too many"},
+        std::pair{replaced("endloop", "endloop vertex 1 1 1"), "line 7: a facet has more than three vertices"},
+        std::pair{replaced("endfacet", "endfacet red"), "line 8: 'red' is not a keyword"},
+        std::pair{replaced("endfacet", "endfacet vertex 1 1 1"), "line 8: 'vertex' outside of a facet"},
+        std::pair{replaced("a\nfacet normal", "a facet\nnormal"), "line 2: 'normal' outside of a facet"},
+        std::pair{replaced("a\n", "facet vertex end\n"), "line 1: a vertex has only 0 coordinates"},
+        std::pair{"solid a " + one_facet + "endsolid a " + one_facet, "line 14: the file ends without 'endsolid'"}}) {
+    const std::string message = message_of([&, &bytes = text] { (void)corners_in(bytes); });
+    EXPECT_NE(message.find(part), std::string::npos) << message << "\n  lacks: " << part;
+  }
 }
 
 }  // namespace stl_file_test

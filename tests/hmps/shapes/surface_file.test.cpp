@@ -215,7 +215,7 @@ TYPED_TEST(SurfaceFile, NamesFileLineAndCauseOfWhatIsWrong) {
   expect_contains(message(".obj", ""), "has no vertices");
   expect_contains(message(".stl", "solid a\nfacet normal 0 0 1\nvertex 1 2\n"), "line 3: a vertex has only 2");
   expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\nendfacet\n"), "line 4: a facet ends after 1 vertices");
-  expect_contains(message(".stl", "solid a\nvertex 1 2 3\n"), "line 2: a vertex outside of a facet");
+  expect_contains(message(".stl", "solid a\nvertex 1 2 3\n"), "line 2: 'vertex' outside of a facet");
   expect_contains(message(".stl", "solid a\nfacet\nvertex 1 2 3\n"), "cut off");
   expect_contains(message(".stl", "solid a\nfacets\n"), "line 2: 'facets' is not a keyword");
   expect_contains(message(".stl", "PK"), "is not an STL file");
