@@ -71,10 +71,11 @@ void for_each_cell(std::string_view line, Use&& use) {
 }  // namespace detail
 
 /// Parses comma-separated numbers: a header line of distinct column names, then one row per line with one finite number
-/// per column. Ignores blank lines, text after `#` and blanks around cells; lines may end in CR LF. `source` names the
-/// text in messages. Throws `InputError` with source, line and column at the first cell that is not a finite number,
-/// and for rows with too few or too many cells, empty or repeated column names, columns separated by something other
-/// than commas, text in UTF-16 or with a line that ends in CR alone, and text without a header.
+/// per column, with zero for one too small for a double. Ignores blank lines, text after `#` and blanks around
+/// cells; lines may end in CR LF. `source` names the text in messages. Throws `InputError` with source, line and column
+/// at the first cell that is not a finite number, and for rows with too few or too many cells, empty or repeated column
+/// names, columns separated by something other than commas, text in UTF-16 or with a line that ends in CR alone, and
+/// text without a header.
 [[nodiscard]] inline Table parse_csv(std::string_view text, std::string source = "CSV") {
   Table table;
   table.source = std::move(source);

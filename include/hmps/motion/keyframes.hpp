@@ -38,7 +38,7 @@ class Keyframes {
   using Value = typename Keyframe<N>::Value;
 
   /// Takes keyframes with strictly increasing times. Throws `InputError` if there is none, and at the first one,
-  /// counted from 0, that is not finite or out of order.
+  /// counted from 0, that is not finite or out of order, or to which the rate exceeds the range of a double.
   explicit Keyframes(std::vector<Keyframe<N>> keys) : keys_(std::move(keys)), slopes_(keys_.size(), zero()) {
     detail::require(!keys_.empty(), "hmps: a track has no keyframe; give at least one time and value");
     for (std::size_t k = 0; k < keys_.size(); ++k) {
@@ -50,6 +50,7 @@ class Keyframes {
       detail::require(k == 0 || keys_[k - 1].time < keys_[k].time, "hmps: keyframe ", k, " at ", keys_[k].time,
                       " s follows one at ", k == 0 ? 0.0 : keys_[k - 1].time,
                       " s; sort the keyframes by time and give each time once");
+      if (k > 0) require_rates(k);
     }
     for (std::size_t k = 1; k + 1 < keys_.size(); ++k)
       for (int c = 0; c < N; ++c) at(slopes_[k], c) = slope(k, c);
@@ -97,6 +98,20 @@ class Keyframes {
       return value;
     else
       return value[c];
+  }
+  /// Throws unless all that is computed between the keyframes `k` - 1 and `k` is finite. The largest factor of a
+  /// difference or a rate is 6, in the sum of the weights in `slope`.
+  void require_rates(std::size_t k) const {
+    const Keyframe<N>&from = keys_[k - 1], &to = keys_[k];
+    const double step = 6 * (to.time - from.time);
+    for (int c = 0; c < N; ++c) {
+      const double change = 6 * (at(to.value, c) - at(from.value, c));
+      detail::require(detail::is_finite(step) && detail::is_finite(36 / step) && detail::is_finite(change) &&
+                          detail::is_finite(36 / step * change),
+                      "hmps: from keyframe ", k - 1, " at ", from.time, " s to keyframe ", k, " at ", to.time,
+                      " s, component ", c, " changes from ", at(from.value, c), " to ", at(to.value, c),
+                      "; these differences or their rate exceed the range of a double: check times and values");
+    }
   }
   void require_time(double time) const {
     detail::require(!keys_.empty(), "hmps: a track that was moved from has no keyframes; use the one it was moved to");

@@ -101,6 +101,26 @@ TEST(Keyframes, RefusesDisorderAndNamesTheKey) {
   EXPECT_NE(message_of([&] { Keyframes<2>{{0.0, {0.0, nan}}}; }).find("component 1 of keyframe 0"), std::string::npos);
 }
 
+// Values and rates between them used to be NaN or infinite.
+TEST(Keyframes, RefusesRatesBeyondTheRangeOfADouble) {
+  for (const std::vector<Keyframe<1>>& keys : {std::vector<Keyframe<1>>{{0.0, 0.0}, {1.0, -1e306}, {2.0, 1e308}},
+                                               {{0.0, 0.0}, {1.0, 0.0}, {1.5e308, 1.0}},
+                                               {{-2.0, 0.0}, {0.0, 0.0}, {5e-324, 1.0}},
+                                               {{-1.0, 0.0}, {0.0, 0.0}, {1e-300, 1e10}}}) {
+    const std::string text = message_of([&] { Track{keys}; });
+    EXPECT_NE(text.find("to keyframe 2 at"), std::string::npos) << text;
+    EXPECT_NE(text.find("exceed the range of a double"), std::string::npos) << text;
+  }
+  const std::string text = message_of([] { Keyframes<2>{{0.0, {0.0, -1e308}}, {1.0, {0.0, 1e308}}}; });
+  EXPECT_NE(text.find("component 1 changes from -1e+308 to 1e+308"), std::string::npos) << text;
+
+  const Track largest{{0.0, 0.0}, {1.0, 1e306}, {3.0, 2e306}, {1e307, 1e307}, {2e307, 3e307}};
+  for (const double t : {0.5, 1.0, 2.0, 2.999, 1e306, 1.5e307}) {
+    EXPECT_TRUE(std::isfinite(largest.value(t))) << t;
+    EXPECT_TRUE(std::isfinite(largest.rate(t))) << t;
+  }
+}
+
 TEST(Keyframes, RefusesATimeAfterAMove) {
   Track first{{0.0, 0.0}, {1.0, 1.0}};
   const Track second = std::move(first);

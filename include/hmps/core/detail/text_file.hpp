@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/error.hpp"
@@ -80,12 +82,34 @@ inline constexpr std::size_t most_streamed_bytes = std::size_t{1} << 30;
   return word;
 }
 
-/// Parses all of `text` as a number, independently of the locale. Returns false if it is not one.
+/// Whether the decimal number `text`, which is out of the range of a type, is too small for it and not too large.
+[[nodiscard]] inline bool is_below_range(std::string_view text) {
+  const auto mark = text.find_first_of("eE");
+  const std::string_view digits = text.substr(0, mark);
+  double exponent = 0;
+  if (mark != std::string_view::npos) {
+    std::string_view rest = text.substr(mark + 1);
+    if (rest.starts_with('+')) rest.remove_prefix(1);
+    if (std::from_chars(rest.data(), rest.data() + rest.size(), exponent).ec != std::errc())
+      return rest.starts_with('-');
+  }
+  const auto first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), digits.size());
+  return exponent + static_cast<double>(point) - static_cast<double>(first) < 0;
+}
+
+/// Parses all of `text` as a number, independently of the locale. Returns false if it is not one. A number too small
+/// for `T` is zero.
 template <class T>
 [[nodiscard]] bool parse_number(std::string_view text, T& number) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && stop == text.data() + text.size();
+  if (stop != text.data() + text.size()) return false;
+  if constexpr (std::is_floating_point_v<T>)
+    if (error == std::errc::result_out_of_range && is_below_range(text)) {
+      number = 0;
+      return true;
+    }
+  return error == std::errc();
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail

@@ -84,4 +84,22 @@ TEST(TextFile, NumbersMustBeWhole) {
   EXPECT_EQ(number, 1.25);
 }
 
+// They used to be refused, as if they were too large.
+TEST(TextFile, NumbersTooSmallForADoubleAreZero) {
+  const std::string zeros(400, '0');
+  for (const std::string& text :
+       {std::string("1e-400"), std::string("-2.5E-400"), std::string("+1e-99999999999999999999"), "0." + zeros + "1",
+        "0." + zeros + "1e+50", "1" + zeros + "e-900"}) {
+    double number = 1;
+    EXPECT_TRUE(parse_number(text, number)) << text;
+    EXPECT_EQ(number, 0) << text;
+  }
+  double number{};
+  for (const std::string& text : {std::string("1e400"), std::string("-0.01e+400"), "1" + zeros, "1" + zeros + ".5",
+                                  "0." + zeros + "1e+900", std::string("1e99999999999999999999")})
+    EXPECT_FALSE(parse_number(text, number)) << text;
+  EXPECT_TRUE(parse_number("0." + zeros + "1e+401", number));
+  EXPECT_EQ(number, 1);
+}
+
 }  // namespace text_file_test
