@@ -10,6 +10,8 @@
 #include <vector>
 
 #include <hmps/core/view.hpp>
+#include <hmps/output/pvd_text.hpp>
+#include <hmps/output/vtk_field.hpp>
 #include <hmps/output/vtu_file.hpp>
 #include "csv_writer.hpp"
 #include "files.hpp"

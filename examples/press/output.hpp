@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <hmps/core/view.hpp>
 #include <hmps/diagnostics/stress.hpp>
-#include <hmps/output/vtu_file.hpp>
+#include <hmps/output/vtu_series.hpp>
 #include <hmps/particles/carried_surface.hpp>
 #include <hmps/shapes/surface_mesh.hpp>
 #include <vector>

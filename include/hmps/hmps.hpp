@@ -79,6 +79,7 @@
 #include "hmps/output/pvd_text.hpp"
 #include "hmps/output/vtk_field.hpp"
 #include "hmps/output/vtu_file.hpp"
+#include "hmps/output/vtu_series.hpp"
 #include "hmps/particles/carried_surface.hpp"
 #include "hmps/particles/fitted.hpp"
 #include "hmps/particles/fitted_settings.hpp"

@@ -14,6 +14,20 @@
 
 namespace hmps::inline HMPS_ABI {
 
+namespace detail {
+
+/// The name under which `replace_file` writes `path` before it renames it.
+[[nodiscard]] inline std::filesystem::path temporary_of(std::filesystem::path path) { return path += ".part"; }
+
+/// Whether the file system accepts the temporary name of `path`, whose folder must exist.
+[[nodiscard]] inline bool name_fits(const std::filesystem::path& path) {
+  std::error_code problem;
+  (void)std::filesystem::symlink_status(temporary_of(path), problem);
+  return problem != std::errc::filename_too_long;
+}
+
+}  // namespace detail
+
 /// Replaces the contents of the file at `path` with `bytes`, or makes it: writes them beside it as `path`.part, which
 /// it then renames, so that a reader finds either the whole old file or the whole new one, even if the program is
 /// killed meanwhile. Follows symbolic links at `path`, also to a file that does not exist yet, but replaces whatever
@@ -25,8 +39,8 @@ namespace hmps::inline HMPS_ABI {
 /// an exception of it counts as an error.
 ///
 /// Throws `InputError` with the name and the reason if the file cannot be written, for example because its folder is
-/// missing or the disk is full, and if `path` exists and is not a regular file: a program that is run by root would
-/// otherwise replace a device by a file.
+/// missing, the disk is full or the temporary name is too long, and if `path` exists and is not a regular file: a
+/// program that is run by root would otherwise replace a device by a file.
 inline void replace_file(std::filesystem::path path, std::string_view bytes,
                          const std::function<void(const std::filesystem::path&)>& before_rename = {}) {
   std::error_code problem;
@@ -39,8 +53,10 @@ inline void replace_file(std::filesystem::path path, std::string_view bytes,
                     ": links lead in a circle; remove them");
     path = path.parent_path() / std::filesystem::read_symlink(path, problem);  // an absolute target replaces the folder
   }
-  std::filesystem::path temporary = path;
-  temporary += ".part";
+  detail::require(detail::name_fits(path), "hmps: cannot write ", path.string(),
+                  ": its name is too long for the file system with the .part that is added while it is written; give "
+                  "a shorter name");
+  const std::filesystem::path temporary = detail::temporary_of(path);
   const auto fail = [&](const char* what, const std::string& reason) {
     std::filesystem::remove(temporary, problem);
     detail::throw_input_error({"hmps: cannot ", what, " ", path.string(), ": ", reason,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,20 +13,16 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
-#include "hmps/core/detail/text_file.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/output/detail/xml_text.hpp"
 #include "hmps/output/file_replacement.hpp"
 #include "hmps/output/position_field.hpp"
-#include "hmps/output/pvd_text.hpp"
 #include "hmps/output/vtk_field.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -41,7 +36,7 @@ struct VtkNames {
 
 /// The contents of a VTU file besides positions and fields.
 struct VtuSettings {
-  double time = 0;  ///< s, as ParaView shows it
+  std::optional<double> time = {};  ///< s, as ParaView shows it; 0 if not set. `VtuSeries` sets it
   /// Triangles between the points, such as those of a surface; without triangles, each point is a cell of its own.
   std::span<const std::array<Index, 3>> triangles = {};
   std::vector<VtkNames> names = {};
@@ -142,8 +137,8 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
   detail::require(std::max(size, 3 * settings.triangles.size()) <= std::numeric_limits<std::int32_t>::max(),
                   "hmps: a VTU file of ", size, " points and ", settings.triangles.size(),
                   " triangles needs indices of more than 32 bits; write it in parts");
-  detail::require(detail::is_finite(settings.time), "hmps: the time of a VTU file is ", settings.time,
-                  " s; give a finite number");
+  const double time = settings.time.value_or(0);
+  detail::require(detail::is_finite(time), "hmps: the time of a VTU file is ", time, " s; give a finite number");
   detail::require_fields(size, fields);
   detail::VtkArrays arrays;
   // Not one sum: there g++ 12 warns of bounds that it gets wrong.
@@ -152,7 +147,7 @@ inline void require_names(const VtkNames& names, std::span<const VtkField> field
   arrays.head +=
       "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
       "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">";
-  arrays.head += detail::shortest(settings.time);
+  arrays.head += detail::shortest(time);
   arrays.head += "</DataArray>\n";
   for (const VtkNames& names : settings.names) {
     detail::require_names(names, fields);
@@ -190,110 +185,5 @@ void write_vtu(const std::filesystem::path& path, const VectorView<T, D>& x, con
   require_finite(x, "the position");
   replace_file(path, vtu_text(position_field("position", x), fields, settings));
 }
-
-/// How a series of frames begins.
-struct VtuSeriesSettings {
-  /// The time in s at which a resumed run goes on: the frames up to this time that are listed already are kept, later
-  /// ones are dropped. Without it, the series begins anew.
-  std::optional<double> resume_at = {};
-};
-
-/// Frames of a run, which ParaView shows one after another: open `press.pvd` there.
-///
-///     VtuSeries frames("results/press.pvd");                       // makes the folder
-///     VtuSeries frames("results/press.pvd", {.resume_at = t});     // goes on with it, from a checkpoint at time t
-///     frames.add(t, x, {{vtk_field("velocity", v)}});              // writes results/press_00000.vtu, ...
-///
-/// Positions of a frame are in single or double precision, whichever it needs. The collection is complete at any
-/// moment, so that a run can be watched while it goes on. Frames of an earlier run with the same name are overwritten
-/// one by one, in a resumed run those that it dropped.
-class VtuSeries {
- public:
-  /// Begins the collection `path` (.pvd), or goes on with it. If it is not there yet, a resumed run begins it. A
-  /// resumed run may write the frame at `resume_at` once more, in place of the one that was kept. Times of frames and
-  /// `resume_at` are compared to 1e-8 of the latter: sums of up to ten million time steps differ by less from products,
-  /// and the times of two steps by more.
-  ///
-  /// Throws `InputError` if its folder cannot be made or written to, for a name that does not end in .pvd, is not UTF-8
-  /// or has control characters, for a `resume_at` that is not finite, and if the collection with which a resumed run
-  /// should go on was damaged or is not from a series of this name.
-  explicit VtuSeries(const std::filesystem::path& path, const VtuSeriesSettings& settings = {})
-      : path_(std::filesystem::absolute(path)) {
-    detail::require(path_.extension() == ".pvd", "hmps: ", path_.string(),
-                    " should be a ParaView collection; end its name in .pvd");
-    // The collection names its frames, so that ParaView would look for question marks.
-    const std::string stem = path_.stem().string();
-    detail::require(detail::xml_characters(stem) == stem, "hmps: the name of the ParaView collection ",
-                    detail::printable(stem),
-                    " has control characters or bytes that are not UTF-8; give it another name");
-    if (settings.resume_at) resume(*settings.resume_at);
-    std::error_code problem;
-    std::filesystem::create_directories(path_.parent_path(), problem);
-    detail::require(!problem, "hmps: cannot make the folder ", path_.parent_path().string(), ": ", problem.message(),
-                    "; check its permissions");
-    replace_file(path_, pvd_text(frames_));
-  }
-
-  /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection. Throws `InputError` as that
-  /// does, and for a time that is not later than that of the previous frame: ParaView would show only one of the two.
-  /// Throws `StateError` if the collection is no longer as this series left it, for example because a second series
-  /// writes to the same path.
-  template <class T, int D>
-  void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
-           VtuSettings settings = {}) {
-    // If the collection cannot be written, it stays as it is, and the frame can be added again.
-    auto frames = frames_;
-    if (!frames.empty() && std::abs(frames.back().first - time) <= again_) frames.pop_back();
-    detail::require(frames.empty() || time > frames.back().first, "hmps: a frame of ", path_.string(), " at ", time,
-                    " s follows one at ", frames.empty() ? 0.0 : frames.back().first,
-                    " s; times must grow from frame to frame");
-    if (std::error_code missing; std::filesystem::exists(path_, missing))
-      if (detail::read_text(path_.string()) != pvd_text(frames_))
-        throw StateError(detail::message("hmps: ", path_.string(), " has changed since this series wrote its frame ",
-                                         frames_.size(),
-                                         "; another series or program writes to it: give each its own path"));
-    settings.time = time;
-    const std::string name = file_of(frames.size());
-    write_vtu(path_.parent_path() / name, x, fields, settings);
-    frames.emplace_back(time, name);
-    replace_file(path_, pvd_text(frames));
-    frames_ = std::move(frames);
-    again_ = -1;
-  }
-
-  /// Time in s and file of every frame.
-  [[nodiscard]] const std::vector<std::pair<double, std::string>>& frames() const { return frames_; }
-
- private:
-  [[nodiscard]] std::string file_of(std::size_t frame) const {
-    const std::string number = std::to_string(frame);
-    return path_.stem().string() + '_' + std::string(5 - std::min<std::size_t>(number.size(), 5), '0') + number +
-           ".vtu";
-  }
-
-  /// Takes over the frames up to `time`.
-  void resume(double time) {
-    detail::require(detail::is_finite(time), "hmps: ", path_.string(), " is to be resumed at ", time,
-                    " s; give the time of the checkpoint");
-    std::error_code missing;
-    if (!std::filesystem::is_regular_file(path_, missing)) return;
-    const std::string text = detail::read_text(path_.string());
-    for (const double listed : detail::pvd_times(text)) frames_.emplace_back(listed, file_of(frames_.size()));
-    bool increases = frames_.empty() || detail::is_finite(frames_.front().first);
-    for (std::size_t k = 1; k < frames_.size(); ++k)
-      increases = increases && detail::is_finite(frames_[k].first) && frames_[k - 1].first < frames_[k].first;
-    detail::require(
-        text == pvd_text(frames_) && increases, "hmps: ", path_.string(),
-        " cannot be resumed: it is damaged, or was not written by a series of this name; put back the file of the "
-        "interrupted run, or leave out resume_at to begin anew");
-    again_ = 1e-8 * std::abs(time);
-    while (!frames_.empty() && frames_.back().first > time + again_) frames_.pop_back();  // the times increase
-    if (!frames_.empty() && frames_.back().first < time - again_) again_ = -1;
-  }
-
-  std::filesystem::path path_;
-  std::vector<std::pair<double, std::string>> frames_;
-  double again_ = -1;  // s, by how much the next frame may differ from the last one that it replaces; -1: none
-};
 
 }  // namespace hmps::inline HMPS_ABI

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "../../reference/file_size_limit.hpp"
+#include "../../reference/message_of.hpp"
 #include "../../reference/temporary_folder.hpp"
 #include "hmps/core/detail/text_file.hpp"
 
@@ -93,6 +94,19 @@ TEST(FileReplacement, ErrorsNameTheFileAndLeaveTheOldOne) {
   EXPECT_THROW(replace_file(taken, "1"), InputError);
   EXPECT_TRUE(std::filesystem::is_directory(taken / "inner"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+// The file system may take the name, but not the temporary one.
+TEST(FileReplacement, SaysThatANameIsTooLong) {
+  const hmps_test::TemporaryFolder folder;
+  std::string name(100, 'a');
+  while (name.size() < 1000 && detail::name_fits(folder.path() / name)) name += 'a';
+  const auto path = folder.path() / name;
+  const std::string error = hmps_test::message_of([&] { replace_file(path, "1"); });
+  EXPECT_NE(error.find("too long for the file system with the .part"), std::string::npos) << error;
+  name.pop_back();
+  replace_file(folder.path() / name, "1");
+  EXPECT_EQ(detail::read_text((folder.path() / name).string()), "1");
 }
 
 TEST(FileReplacement, CallsBeforeItRenames) {

@@ -69,22 +69,6 @@ TEST(VtuFile, RefusesWhatDoesNotFit) {
   EXPECT_NE(error_of([&] { write_vtu(missing, vectors(cloud.x)); }).find(missing), std::string::npos);
 }
 
-TEST(VtuFile, ASeriesListsEachFrameWhenItIsWritten) {
-  Cloud cloud;
-  const hmps_test::TemporaryFolder folder;
-  VtuSeries frames(folder.path() / "deep" / "er" / "run.pvd");
-  EXPECT_THROW(VtuSeries(folder.path() / "run.vtu"), InputError);
-  for (int i = 0; i < 3; ++i) {
-    frames.add(0.5 * i, vectors(cloud.x));
-    const std::string list = detail::read_text((folder.path() / "deep/er/run.pvd").string());
-    EXPECT_EQ(list, pvd_text(frames.frames()));
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "deep/er" / frames.frames().back().second));
-  }
-  EXPECT_EQ(frames.frames()[2].second, "run_00002.vtu");
-  EXPECT_NE(pvd_text(frames.frames()).find("timestep=\"0.5\" group=\"\" part=\"0\" file=\"run_00001.vtu\""),
-            std::string::npos);
-}
-
 TEST(VtuFile, KeepsPointsDistinctFarFromTheOrigin) {
   std::vector<Vector<double, 3>> x;
   for (int k = 0; k < 10; ++k) x.push_back({1000 + 2e-5 * k, 0, 0});
@@ -126,122 +110,6 @@ TEST(VtuFile, CanBeReadByVtk) {
   EXPECT_EQ(std::system((python + script.string() + " " + folder.path().string()).c_str()), 0);
 }
 
-TEST(VtuFileMisuse, DetectsTwoSeriesOnOnePath) {
-  const Cloud cloud;
-  const hmps_test::TemporaryFolder folder;
-  VtuSeries first(folder.path() / "run.pvd");
-  first.add(0, vectors(cloud.x));
-  VtuSeries second(folder.path() / "run.pvd");
-  EXPECT_THROW(first.add(1, vectors(cloud.x)), StateError);
-  second.add(0, vectors(cloud.x));
-  std::filesystem::remove(folder.path() / "run.pvd");  // written anew, with all its frames
-  second.add(1, vectors(cloud.x));
-  EXPECT_EQ(detail::read_text((folder.path() / "run.pvd").string()), pvd_text(second.frames()));
-}
-
-TEST(VtuSeries, AcceptsAFrameAgainAfterAWriteError) {
-  const hmps_test::TemporaryFolder folder;
-  const auto path = folder.path() / "run.pvd";
-  const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
-  VtuSeries series(path);
-  series.add(0, vectors(x));
-  const std::string before = detail::read_text(path.string());
-  const auto obstacle = folder.path() / "run.pvd.part";  // a folder in place of the temporary file, and not empty
-  std::filesystem::create_directories(obstacle / "full");
-  EXPECT_THROW(series.add(0.1, vectors(x)), InputError);
-  EXPECT_EQ(detail::read_text(path.string()), before);
-  EXPECT_EQ(series.frames().size(), 1U);
-  std::filesystem::remove_all(obstacle);
-  series.add(0.1, vectors(x));
-  EXPECT_EQ(series.frames().size(), 2U);
-}
-
-std::vector<double> times_of(const VtuSeries& series) {
-  std::vector<double> times;
-  for (const auto& [time, file] : series.frames()) times.push_back(time);
-  return times;
-}
-
-TEST(VtuSeries, GoesOnWhereARunIsResumed) {
-  const hmps_test::TemporaryFolder folder;
-  const auto path = folder.path() / "a & b.pvd";
-  std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
-  const auto text = [&](const char* file) { return detail::read_text((folder.path() / file).string()); };
-  {
-    VtuSeries series(path, {.resume_at = 0.3});  // nothing to resume
-    EXPECT_TRUE(series.frames().empty());
-    for (const double time : {0.1, 0.2, 0.3, 0.4, 0.5}) series.add(time, vectors(x));
-  }
-  const std::string before = text("a & b_00001.vtu"), at = text("a & b_00002.vtu"), after = text("a & b_00003.vtu");
-  x[1][0] = 1;
-  {
-    VtuSeries series(path, {.resume_at = 0.1 + 0.2});  // 0.30000000000000004
-    EXPECT_EQ(times_of(series), (std::vector<double>{0.1, 0.2, 0.3}));
-    EXPECT_EQ(text("a & b.pvd"), pvd_text(series.frames()));
-    series.add(0.45, vectors(x));
-    EXPECT_EQ(series.frames().back().second, "a & b_00003.vtu");
-    EXPECT_EQ(text("a & b.pvd"), pvd_text(series.frames()));
-  }
-  EXPECT_EQ(text("a & b_00002.vtu"), at);
-  EXPECT_NE(text("a & b_00003.vtu"), after);
-  {  // The frame at which the run goes on may be written again, once.
-    VtuSeries series(path, {.resume_at = 0.3});
-    series.add(0.1 + 0.2, vectors(x));
-    EXPECT_EQ(times_of(series), (std::vector<double>{0.1, 0.2, 0.1 + 0.2}));
-    EXPECT_THROW(series.add(0.1 + 0.2, vectors(x)), InputError);
-  }
-  EXPECT_NE(text("a & b_00002.vtu"), at);
-  {  // A frame before that may not.
-    VtuSeries series(path, {.resume_at = 0.25});
-    EXPECT_EQ(times_of(series), (std::vector<double>{0.1, 0.2}));
-    EXPECT_THROW(series.add(0.2, vectors(x)), InputError);
-    series.add(0.25, vectors(x));
-    EXPECT_EQ(series.frames().back().second, "a & b_00002.vtu");
-  }
-  EXPECT_EQ(text("a & b_00001.vtu"), before);
-  EXPECT_TRUE(VtuSeries(path, {.resume_at = 0}).frames().empty());
-  EXPECT_EQ(text("a & b.pvd"), pvd_text({}));
-  EXPECT_TRUE(VtuSeries(path, {.resume_at = 1}).frames().empty());
-}
-
-TEST(VtuSeries, RefusesToGoOnWithWhatItDidNotWrite) {
-  const hmps_test::TemporaryFolder folder;
-  const auto path = folder.path() / "run.pvd";
-  const std::vector<std::pair<double, std::string>> frames{{0.1, "run_00000.vtu"}, {0.2, "run_00001.vtu"}};
-  const std::string whole = pvd_text(frames);
-  const auto of = [](double a, double b) {
-    return pvd_text(std::vector<std::pair<double, std::string>>{{a, "run_00000.vtu"}, {b, "run_00001.vtu"}});
-  };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const std::string& text :
-       {std::string(), whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 1), whole + "\n",
-        std::string("nonsense"), of(0.2, 0.1), of(0.1, 0.1), of(0.1, nan), of(nan, 0.1),
-        pvd_text(std::vector<std::pair<double, std::string>>{{0.1, "other_00000.vtu"}})}) {
-    replace_file(path, text);
-    const std::string error = error_of([&] { VtuSeries(path, {.resume_at = 0.15}); });
-    EXPECT_NE(error.find(path.string() + " cannot be resumed"), std::string::npos) << error << text;
-    EXPECT_EQ(detail::read_text(path.string()), text);
-  }
-  EXPECT_NE(error_of([&] { VtuSeries(path, {.resume_at = nan}); }).find("resumed at nan"), std::string::npos);
-  std::filesystem::remove(path);
-  std::filesystem::create_directory(path);
-  EXPECT_THROW(VtuSeries(path, {.resume_at = 0.15}), InputError);
-}
-
-TEST(VtuSeries, StaysInItsFolderIfTheProgramChangesFolder) {
-  const Cloud cloud;
-  const hmps_test::TemporaryFolder folder, elsewhere;
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder.path());
-  VtuSeries frames("run.pvd");
-  frames.add(0, vectors(cloud.x));
-  std::filesystem::current_path(elsewhere.path());
-  frames.add(1, vectors(cloud.x));
-  std::filesystem::current_path(before);
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run_00001.vtu"));
-  EXPECT_TRUE(std::filesystem::is_empty(elsewhere.path()));
-}
-
 TEST(VtuFileMisuse, IsRefused) {
   const std::vector<Vector<double, 3>> x(2, Vector<double, 3>::Zero());
   const hmps_test::TemporaryFolder folder;
@@ -261,14 +129,8 @@ TEST(VtuFileMisuse, IsRefused) {
               write_vtu(path, vectors(x), {vtk_field("organ", scalars(signed_organ))}, {.names = {{"organ", {"a"}}}});
             }).find("number 0 of the field organ of a VTU file is -1"),
             std::string::npos);
-  EXPECT_THROW(VtuSeries(folder.path() / "s\xe9rie.pvd"), InputError);
   const VtuSettings twice{.names = {{"organ", {"a", "b", "c"}}, {"organ", {"d", "e", "f"}}}};
   EXPECT_THROW(write_vtu(path, vectors(x), fields, twice), InputError);
-  VtuSeries frames(folder.path() / "run.pvd");
-  frames.add(1, vectors(x));
-  EXPECT_THROW(frames.add(1, vectors(x)), InputError);
-  EXPECT_THROW(frames.add(0.5, vectors(x)), InputError);
-  EXPECT_EQ(frames.frames().size(), 1U);
 }
 
 }  // namespace vtu_file_test
