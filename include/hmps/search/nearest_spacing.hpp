@@ -40,6 +40,12 @@ template <class T, int D>
 
 namespace detail {
 
+/// The question whether the spacing is the one that was `found` in the particles (m) instead of the `given` one.
+[[nodiscard]] inline std::string ask_for_spacing(double found, double given) {
+  return message(found, " m, ", found / given, " times the spacing of ", given, " m that was given: is the spacing ",
+                 found, " m?");
+}
+
 /// A hint to append to an error that a wrong `spacing` (m) may have caused; empty if `points` agree with it to within
 /// `tolerance`, as a share of it. In clouds that are not a lattice, the distances of nearest neighbours scatter by a
 /// tenth.
@@ -48,8 +54,7 @@ template <class T, int D>
                                                  double tolerance = 0.01) {
   const double found = nearest_spacing(points);
   if (found == 0 || std::abs(found / spacing - 1) < tolerance) return "";
-  return message("; the nearest neighbours lie ", found, " m apart, ", found / spacing, " times the spacing of ",
-                 spacing, " m that was given: is the spacing ", found, " m?");
+  return "; the distance of nearest neighbours is " + ask_for_spacing(found, spacing);
 }
 
 /// Throws `InputError` if `spacing` (m), which was given to `what`, is not that of the particles at `points` (m) to

@@ -152,11 +152,27 @@ TEST(LatticeBonds, NameTheSpacingOfTheParticles) {
   const auto points = scenes::box<3>({6, 5, 4});
   const double l0 = scenes::Scene<3>::spacing;
   const std::string right = hmps::detail::message("is the spacing ", l0, " m?");
-  for (const double factor : {1.1, 0.6, 0.5, 2.0, 1e3, 1e-3, 1e-7}) {
+  for (const double factor : {1.1, 0.6, 0.5, 2.0, 1e3, 1e-3, 1e-7, 1.005, 0.999}) {
     const std::string error =
         error_of([&] { (void)hmps::LatticeBonds<double, 3>(hmps::vectors(points), {.spacing = factor * l0}); });
     EXPECT_TRUE(has(error, right)) << factor << ": " << error;
   }
+}
+
+// In a long body a spacing that is off by less matters. Rounding changes the distances of neighbours by more than that.
+TEST(LatticeBonds, NameTheSpacingOfARowInFloat) {
+  std::vector<hmps::Vector<float, 2>> points;
+  for (int i = 0; i < 2000; ++i)
+    for (int k = 0; k < 2; ++k)
+      points.push_back(1e-3F * hmps::Vector<float, 2>(static_cast<float>(i), static_cast<float>(k)));
+  const auto error_with = [&](double spacing) {
+    return error_of([&] { (void)hmps::LatticeBonds<float, 2>(hmps::vectors(points), {.spacing = spacing}); });
+  };
+  EXPECT_EQ(error_with(1e-3), "nothing was thrown");
+  const std::string error = error_with(1.00001e-3);
+  EXPECT_TRUE(has(error, "is the spacing 0.001") && !has(error, "BondList")) << error;
+  for (auto& x : points) x[1] *= 1.01F;  // no cubic lattice any more
+  EXPECT_TRUE(has(error_with(1e-3), "use BondList for a cloud that is no lattice")) << error_with(1e-3);
 }
 
 TEST(LatticeBonds, OfNoParticlesAreRefused) {

@@ -43,6 +43,27 @@ template <int D>
   return cells;
 }
 
+/// The share of a spacing by which a particle may lie beside its lattice site.
+inline constexpr double off_lattice = 1e-3;
+
+/// The spacing (m) of the simple cubic lattice along the axes on which all `points` (m) lie; 0 if they lie on none.
+template <class T, int D>
+[[nodiscard]] double lattice_spacing(const VectorView<T, D>& points) {
+  const double nearest = nearest_spacing(points);
+  const auto offset = [&](std::size_t i, int c) { return double(points(i, c)) - double(points(0, c)); };
+  double extent = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < D; ++c) extent = std::max(extent, std::abs(offset(i, c)));
+  if (!(nearest > 0 && extent > nearest / 2)) return 0;
+  const double spacing = extent / std::round(extent / nearest);  // the extent tells it more exactly
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < D; ++c) {
+      const double place = offset(i, c) / spacing;
+      if (!(std::abs(place - std::round(place)) < off_lattice)) return 0;
+    }
+  return spacing;
+}
+
 /// The occupied cells of a simple cubic lattice, sorted row by row.
 template <int D>
 struct LatticeCells {
@@ -63,7 +84,7 @@ struct LatticeCells {
           throw_input_error({"hmps: particle ", i, " lies ", place, " spacings from particle 0; a lattice may span 1e6",
                              spacing_hint(reference, spacing)});
         const double nearest = std::round(place);
-        if (std::abs(place - nearest) >= 1e-3)
+        if (std::abs(place - nearest) >= off_lattice)
           throw_input_error({"hmps: component ", c, " of particle ", i, " lies ", place,
                              " spacings from particle 0, not on the cubic lattice",
                              not_this_lattice(reference, spacing)});
@@ -108,7 +129,9 @@ struct LatticeCells {
   template <class T>
   [[nodiscard]] HMPS_COLD static std::string not_this_lattice(const VectorView<T, D>& reference, double spacing) {
     constexpr double coarse = 0.3;  // rounding alone changes the distance of nearest neighbours by less
-    if (spacing_hint(reference, spacing, coarse).empty()) require_resolved(reference, spacing, 1e-3);
+    if (spacing_hint(reference, spacing, coarse).empty()) require_resolved(reference, spacing, off_lattice);
+    if (const double found = lattice_spacing(reference); found > 0)
+      return "; all particles lie on the lattice of " + ask_for_spacing(found, spacing);
     const std::string hint = spacing_hint(reference, spacing);
     return hint.empty() ? "; use BondList for a cloud that is no lattice"
                         : hint + " For a cloud that is no lattice use BondList";
