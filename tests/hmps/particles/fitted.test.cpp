@@ -295,6 +295,34 @@ TEST(FitParticles, LeavesNoParticleWithoutSupport) {
   EXPECT_NEAR(sum(held.volumes), sum(all.volumes), 1e-9);
 }
 
+// The advice used to be nine tenths of the spacing, again and again.
+TEST(FitParticles, AdvisesASpacingThatSucceedsAtOnceWhereNoParticleHasSupport) {
+  const auto advised = [](double angle, double width, double height, const hmps::FitSettings& settings) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const V3 size(width > 3 ? width : 6, width, height);
+    // A bar or sheet, turned about y and z.
+    const auto shape = [=](const V3& x) {
+      const V3 a(c * x[0] + s * x[1], -s * x[0] + c * x[1], x[2]);
+      return Box<double, 3>{V3::Zero(), size}(V3(c * a[0] + s * a[2], a[1], -s * a[0] + c * a[2]));
+    };
+    const Box<double, 3> box{V3(-6, -2, -2), V3(9, 12, 9)};
+    const std::string text = message_of([&] { (void)fit_particles(shape, box, 1.0, settings); });
+    const auto at = text.find("has enough neighbours to hold it"), advice = text.find("at most ");
+    EXPECT_LT(at, advice) << text;
+    if (advice == std::string::npos) return text;
+    const double spacing = std::stod(text.substr(advice + 8));
+    EXPECT_NEAR(spacing, std::min(width, height) / 2, 0.03);
+    EXPECT_GT(fit_particles(shape, box, spacing, settings).size(), 20U) << text;
+    return text;
+  };
+  const std::string needle = advised(0, 0.5, 0.5, {.iterations = 20});
+  EXPECT_EQ(needle.find("least_layers"), std::string::npos) << needle;
+  (void)advised(0.6, 1.2, 1.2, {.iterations = 20});
+  const std::string sheet = advised(0.6, 4, 1, {.least_layers = 1, .iterations = 20});
+  EXPECT_NE(sheet.find("a single layer, which least_layers = 1 allows"), std::string::npos) << sheet;
+  EXPECT_NE(sheet.find("least_support = 0"), std::string::npos) << sheet;
+}
+
 // Faces that meet at more than 60 degrees, as where a flaring body is cut, are not the two sides of a wall.
 TEST(FitParticles, DoesNotTreatAnAcuteEdgeAsAWall) {
   for (const double degrees : {62.0, 66.0, 70.0}) {

@@ -112,15 +112,10 @@ class FittedCloud {
     const SupportSettings settings{.spacing = l0, .threshold = least * full_support<D>(paper_radius_ratio)};
     const Supports<const double, D, EveryBond> supports(points, settings, EveryBond{});
     const auto present = without_weak(supports, places.size(), settings.threshold, KeepNone{});
-    double thinnest = std::numeric_limits<double>::infinity();
     std::size_t left = 0;
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      const Layering& here = particles_[i].layers;
-      thinnest = std::min(thinnest, here.thickness / here.count);
+    for (std::size_t i = 0; i < particles_.size(); ++i)
       if (present[i]) particles_[left++] = particles_[i];
-    }
-    require(left > 0, "hmps: none of the ", particles_.size(), " particles that fit into the body at a spacing of ", l0,
-            " m has enough neighbours to hold it; give a spacing of at most ", std::min(thinnest, 0.9 * l0), " m");
+    if (left == 0) fail_of_weakness();
     particles_.resize(left);
   }
 
@@ -135,6 +130,40 @@ class FittedCloud {
     float first = 1;  // share of the volume
     unsigned char side = 0;
   };
+
+  /// The diameter (m) of the largest ball in the body about the deepest particle, to a few hundredths of a spacing.
+  [[nodiscard]] double thickest() const {
+    const auto shallower = [](const Particle& a, const Particle& b) { return a.depth < b.depth; };
+    Point centre = std::max_element(particles_.begin(), particles_.end(), shallower)->place;
+    double depth = -field_(centre);
+    const int directions = D == 2 ? 9 : 27;
+    for (double step = field_.spacing() / 2; step > field_.spacing() / 100; step /= 2)
+      for (int k = 0; k < directions; ++k) {
+        Point next = centre;
+        for (int c = 0, digits = k; c < D; ++c, digits /= 3) next[c] += step * (digits % 3 - 1);
+        if (const double there = -field_(next); there > depth + 0.01 * step) centre = next, depth = there, k = -1;
+      }
+    return 2 * depth;
+  }
+
+  [[noreturn]] void fail_of_weakness() const {
+    const double l0 = field_.spacing();
+    // Two layers have support, in a needle too.
+    double finer = std::min(thickest() / 2, 0.9 * l0);
+    bool single = true;
+    for (const Particle& p : particles_) {
+      finer = std::min(finer, p.layers.thickness / p.layers.count);
+      single = single && !p.layers.thick && p.layers.count == 1;
+    }
+    throw InputError(message(
+        "hmps: none of the ", particles_.size(), " particles that fit into the body at a spacing of ", l0,
+        " m has enough neighbours to hold it",
+        single ? ": they form a single layer, which least_layers = 1 allows but which has no support "
+                 "across it; give a spacing of at most "
+               : "; give a spacing of at most ",
+        finer,
+        single ? " m, for two layers, or keep one layer with least_support = 0" : " m, or a lower least_support"));
+  }
 
   /// A sample that reaches across the face between two layers belongs to both. Otherwise, in a wall along the grid of
   /// samples, some layers would get whole rows of samples too many.
