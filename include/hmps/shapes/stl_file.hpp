@@ -172,14 +172,21 @@ class AsciiStlParser {
     const std::string_view line = text_.substr(0, text_.find('\n'));
     std::string_view rest = line;
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
-      std::string_view behind = rest;
-      const std::string keyword = lower_case(take_word(behind));
-      if (lower_case(word) == "facet" && (keyword == "normal" || keyword == "outer" || keyword == "vertex")) {
-        text_.remove_prefix(static_cast<std::size_t>(word.data() - text_.data()));
-        return;
-      }
+      if (lower_case(word) != "facet" || !continues_facet(rest)) continue;
+      text_.remove_prefix(static_cast<std::size_t>(word.data() - text_.data()));
+      return;
     }
     text_.remove_prefix(line.size());
+  }
+
+  /// Whether `text` goes on as a facet, and not as a name with the word "facet" in it.
+  [[nodiscard]] static bool continues_facet(std::string_view text) {
+    const std::string keyword = lower_case(take_word(text));
+    const std::string_view next = take_word(text);
+    if (keyword == "outer") return lower_case(next) == "loop";
+    double number{};
+    return (keyword == "normal" || keyword == "vertex") &&
+           (parse_number(next, number) || next.find_first_of("+-.0123456789") == 0);
   }
 
   void require_facet(const std::string& keyword) const {

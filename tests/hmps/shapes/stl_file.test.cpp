@@ -61,17 +61,19 @@ TEST(StlFile, ReadsWordsWhateverTheLinesOfAnAsciiFile) {
   const auto expected = corners_in(usual);
   ASSERT_EQ(expected.size(), 6U);
   EXPECT_EQ(expected[2], (hmps::Vector<double, 3>(7, 8, 9.5)));
-  const auto joined_after = [](std::string text, const std::string& word, char by) {
+  const auto with_joined_lines = [](std::string text, const std::string& word, char by) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
       for (std::size_t k = at; k < at + word.size(); ++k)
         if (text[k] == '\n') text[k] = by;
     return text;
   };
   for (const std::string& text :
-       {joined_after(usual, "\n", ' '), joined_after(usual, "loop\n", '\t'), joined_after(usual, "endfacet\n", ' '),
-        joined_after(usual, "solid a\n", ' '), joined_after(usual, " ", '\n'),
+       {with_joined_lines(usual, "\n", ' '), with_joined_lines(usual, "loop\n", '\t'),
+        with_joined_lines(usual, "endfacet\n", ' '), with_joined_lines(usual, "solid a\n", ' '),
         "solid a\n" + one_facet + "endsolid a solid b " + one_facet + "endsolid b",
-        "solid facet\n" + one_facet + one_facet + "endsolid facet normals\n",
+        "solid facet normal\n" + one_facet + one_facet + "endsolid facet outer vertex\n",
+        "solid facet vertex end\n" + one_facet + one_facet + "endsolid a facet\n",
+        "solid a facet normal -nan(ind) 0 0 " + one_facet.substr(19) + one_facet + "endsolid a\n",
         "solid\n" + one_facet + "facet normal nan -nan(ind) 1.#QNAN\n" + one_facet.substr(19) + "endsolid\n"})
     EXPECT_EQ(corners_in(text), expected) << text;
   std::string one_number_a_line = usual;
@@ -98,8 +100,8 @@ TEST(StlFile, NamesTheLineOfWhatDoesNotBelongToAnAsciiFile) {
         std::pair{replaced("endloop", "endloop vertex 1 1 1"), "line 7: a facet has more than three vertices"},
         std::pair{replaced("endfacet", "endfacet red"), "line 8: 'red' is not a keyword"},
         std::pair{replaced("endfacet", "endfacet vertex 1 1 1"), "line 8: 'vertex' outside of a facet"},
+        std::pair{replaced("a\nfacet normal 0", "a facet normal\n0"), "line 2: the number '0' is one too many"},
         std::pair{replaced("a\nfacet normal", "a facet\nnormal"), "line 2: 'normal' outside of a facet"},
-        std::pair{replaced("a\n", "facet vertex end\n"), "line 1: a vertex has only 0 coordinates"},
         std::pair{"solid a " + one_facet + "endsolid a " + one_facet, "line 14: the file ends without 'endsolid'"}}) {
     const std::string message = message_of([&, &bytes = text] { (void)corners_in(bytes); });
     EXPECT_NE(message.find(part), std::string::npos) << message << "\n  lacks: " << part;
