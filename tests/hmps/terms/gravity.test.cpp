@@ -43,6 +43,22 @@ TEST(Gravity, IsTheDensityTimesTheAcceleration) {
   for (std::size_t i = 0; i < n; ++i) EXPECT_LE((v[i] - Vector(0.25 * g)).norm(), 1e-14) << i;
 }
 
+// - rho g . x per volume: raising a body by h takes rho V |g| h.
+TEST(Gravity, HasTheEnergyOfTheHeight) {
+  auto scene = scenes::all<2>().front();
+  const std::size_t n = scene.reference.size();
+  const Bonds bonds(hmps::vectors(scene.reference), {.spacing = scene.spacing});
+  std::vector<double> rho(n);
+  double mass = 0;
+  for (std::size_t i = 0; i < n; ++i) mass += rho[i] = 900 + static_cast<double>(i);
+  auto force = hmps::internal_force(bonds, hmps::gravity(hmps::scalars(rho), Vector(0.5, -9.81)));
+  const double volume = scene.spacing * scene.spacing;
+  const double before = force.energy(hmps::vectors(scene.reference), volume).total();
+  for (Vector& x : scene.reference) x += Vector(2, 3);
+  const double after = force.energy(hmps::vectors(scene.reference), volume).total();
+  EXPECT_NEAR((after - before) / (mass * volume), 9.81 * 3 - 0.5 * 2, 1e-9);
+}
+
 TEST(Gravity, RefusesBadInput) {
   const Vector g(0, -9.81);
   EXPECT_THROW((void)hmps::gravity(0.0, g), hmps::InputError);
