@@ -80,16 +80,19 @@ struct VectorView : View<T, D> {
   VectorView(const View<T, D>& view) : View<T, D>(view) {}
 
   [[nodiscard]] VectorView part(std::size_t first, std::size_t count) const { return View<T, D>::part(first, count); }
-  /// The vector of particle `i`, by value.
-  [[nodiscard]] Vector<Scalar, D> operator[](std::size_t i) const {
+  /// A copy of the vector of particle `i`, const so that `f[i] = v` and `f[i] += v`, which would change only the copy,
+  /// do not compile. Write with `f.set(i, v)`, `f.add(i, v)` or `f(i, c)`.
+  [[nodiscard]] const Vector<Scalar, D> operator[](std::size_t i) const {
     Vector<Scalar, D> value;
     for (int c = 0; c < D; ++c) value[c] = (*this)(i, c);
     return value;
   }
+  /// Writes `value` to particle `i`.
   template <class Derived>
   void set(std::size_t i, const Eigen::MatrixBase<Derived>& value) const {
     for (int c = 0; c < D; ++c) (*this)(i, c) = static_cast<Scalar>(value[c]);
   }
+  /// Adds `value` to particle `i`.
   template <class Derived>
   void add(std::size_t i, const Eigen::MatrixBase<Derived>& value) const {
     for (int c = 0; c < D; ++c) (*this)(i, c) += static_cast<Scalar>(value[c]);
@@ -108,15 +111,21 @@ struct MatrixView : View<T, D * D> {
   [[nodiscard]] MatrixView part(std::size_t first, std::size_t count) const {
     return View<T, D * D>::part(first, count);
   }
-  /// The tensor of particle `i`, by value.
-  [[nodiscard]] Matrix<Scalar, D> operator[](std::size_t i) const {
+  /// A copy of the tensor of particle `i`, const for the same reason as that of a vector.
+  [[nodiscard]] const Matrix<Scalar, D> operator[](std::size_t i) const {
     Matrix<Scalar, D> value;
     for (int c = 0; c < D * D; ++c) value(c % D, c / D) = (*this)(i, c);
     return value;
   }
+  /// Writes `value` to particle `i`.
   template <class Derived>
   void set(std::size_t i, const Eigen::MatrixBase<Derived>& value) const {
     for (int c = 0; c < D * D; ++c) (*this)(i, c) = static_cast<Scalar>(value(c % D, c / D));
+  }
+  /// Adds `value` to particle `i`.
+  template <class Derived>
+  void add(std::size_t i, const Eigen::MatrixBase<Derived>& value) const {
+    for (int c = 0; c < D * D; ++c) (*this)(i, c) += static_cast<Scalar>(value(c % D, c / D));
   }
 };
 

@@ -31,6 +31,16 @@ TEST(ViewTypes, FindComponentsByBaseAndStride) {
   EXPECT_EQ(memory[13], -1);
 }
 
+TEST(ViewTypes, SetAndAddTensorsColumnMajor) {
+  std::vector<Eigen::Matrix2d> tensors(2, Eigen::Matrix2d::Zero());
+  const hmps::MatrixView<double, 2> view({&tensors[0](0, 0), &tensors[0](1, 0), &tensors[0](0, 1), &tensors[0](1, 1)},
+                                         2, sizeof(Eigen::Matrix2d));
+  view.set(1, (Eigen::Matrix2d() << 1, 2, 3, 4).finished());
+  view.add(1, (Eigen::Matrix2d() << 10, 20, 30, 40).finished());
+  EXPECT_EQ(tensors[1], (Eigen::Matrix2d() << 11, 22, 33, 44).finished());
+  EXPECT_EQ(tensors[0], Eigen::Matrix2d::Zero());
+}
+
 TEST(ViewTypes, RefuseAPartBeyondTheirEnd) {
   std::vector<double> memory(10);
   const VectorView<double, 2> view({&memory[0], &memory[1]}, 5, 16);
