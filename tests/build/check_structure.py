@@ -6,8 +6,8 @@ nothing too long.
 Folders of include/hmps are layers: a header includes headers of its own folder and of those before it in LAYERS. No
 header includes itself by way of others. A folder of benchmarks includes itself and what SHARED says, by its path from
 there. A header with nothing but hmps::detail is in a folder detail. Of benchmarks only the folders INNER use
-hmps::detail and these headers; examples do not. A file has at most MOST_LINES lines, a function at most
-MOST_FUNCTION_LINES.
+hmps::detail and these headers; examples do not. Loops of the library are guarded(execute)(n, body). A file has at most
+MOST_LINES lines, a function at most MOST_FUNCTION_LINES.
 """
 
 import pathlib
@@ -22,6 +22,8 @@ STUDY = ["report", "scenes"]
 INNER = ["components", "hmps"]
 # Headers in detail that define a class of the interface, which contact.hpp includes together.
 PARTS_OF_CONTACT = "hmps/contact/detail/contact_"
+# The headers that may call an executor as it is.
+LOOPS = ["hmps/core/executor.hpp"]
 MOST_LINES = 300
 MOST_FUNCTION_LINES = 60
 
@@ -147,6 +149,15 @@ def check_inner(root):
             yield f"{name} includes {header}, which is for the library alone"
 
 
+def unguarded(name, text):
+    """Loops whose exceptions would reach an executor of the user's, which need not handle them."""
+    if name in LOOPS:
+        return
+    for number, line in enumerate(without_comments(text).splitlines(), 1):
+        if re.search(r"(?<![\w:.])execute_?\((?!execute\))", line):
+            yield f"include/{name}:{number} calls execute: call detail::guarded(execute), which handles exceptions"
+
+
 def check(root):
     problems, graph = [*check_benchmarks(root), *check_inner(root)], {}
     for path in sorted((root / "include").rglob("*.hpp")):
@@ -154,6 +165,7 @@ def check(root):
         text = path.read_text(encoding="utf-8")
         graph[name] = INCLUDE.findall(text)
         problems += lengths(f"include/{name}", text)
+        problems += unguarded(name, text)
         folder = name.split("/")[1]
         if name == "hmps/hmps.hpp":
             continue

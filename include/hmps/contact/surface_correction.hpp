@@ -95,10 +95,10 @@ class SurfaceCorrection {
     require_size(F, x.size(), "deformation gradients");
     require_size(places, x.size(), "places for contact");
     require_apart(places, "places for contact", x, "positions");
-    execute(x.size(), [&](std::size_t i) {
+    detail::guarded(execute)(x.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) places(i, c) = static_cast<P>(x(i, c));
     });
-    execute(skin_.size(), [&](std::size_t k) {
+    detail::guarded(execute)(skin_.size(), [&](std::size_t k) {
       const Index i = skin_[k];
       const Vector<S, D> shift = F[i].template cast<S>() * offset_[k];
       for (int c = 0; c < D; ++c) places(i, c) = static_cast<P>(x(i, c) + static_cast<X>(shift[c]));

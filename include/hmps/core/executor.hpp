@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/detail/first_failure.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -24,6 +25,12 @@ using AnyExecutor = std::function<void(std::size_t, const std::function<void(std
 /// Runs the loops of the library: `execute(n, body)` calls `body(i)` exactly once for every `i` in `[0, n)`, in any
 /// order and possibly concurrently, and returns when all calls have returned. Models: `Serial`, `OpenMP`, `OneTBB`, a
 /// lambda. The loop bodies of the library never write to the same memory, so results do not depend on the executor.
+///
+/// The body that an executor of your own gets from the library never throws, so an executor needs no handler, and may
+/// consist of threads or of a plain `#pragma omp parallel for`. If an index fails, whether in the library or in a
+/// callable of yours such as a shape, a law or a term, the other indices still run, and the library throws the
+/// exception of the lowest index when the executor returns. `Serial` stops at the first failure. `OpenMP` and `OneTBB`
+/// also pass on exceptions of bodies of your own.
 template <class E>
 concept Executor = requires(const E& execute, std::size_t n, detail::AnyBody body) {
   execute(n, body);
@@ -38,13 +45,49 @@ struct Serial {
 };
 
 namespace detail {
+
+/// `execute` for the loops of the library: see `guarded`.
+template <class E>
+class Guarded {
+ public:
+  explicit Guarded(const E& execute) : execute_(execute) {}
+
+  template <class Body>
+  void operator()(std::size_t n, Body&& body) const {
+    if constexpr (std::is_same_v<E, Serial>) {
+      execute_(n, body);
+    } else {
+      FirstFailure failure;
+      execute_(n, [&](std::size_t i) {
+        try {
+          body(i);
+        } catch (...) {
+          failure.keep(i);
+        }
+      });
+      failure.rethrow();
+    }
+  }
+
+ private:
+  const E& execute_;
+};
+
+/// Every loop of the library is `guarded(execute)(n, body)`: an exception of the body does not reach `execute`, which
+/// may be a plain loop on several threads, where it would end the program. That of the lowest index is thrown after the
+/// loop. Free for bodies that cannot throw: the compiler drops the handler.
+template <class E>
+[[nodiscard]] Guarded<E> guarded(const E& execute) {
+  return Guarded<E>(execute);
+}
+
 inline constexpr std::size_t chunk = 1024;  // indices of a loop that are run together
 
 /// Calls `body(i)` for every `i` in `[0, n)`, with one call through `execute` for each chunk: for short bodies and a
 /// type-erased executor.
 template <class Body>
 void for_each_in_chunks(std::size_t n, const AnyExecutor& execute, const Body& body) {
-  execute((n + chunk - 1) / chunk, [&](std::size_t c) {
+  guarded(execute)((n + chunk - 1) / chunk, [&](std::size_t c) {
     const std::size_t end = std::min(n, (c + 1) * chunk);
     for (std::size_t i = c * chunk; i < end; ++i) body(i);
   });
@@ -62,7 +105,7 @@ template <class T, class Term, class Combine, Executor E = Serial>
   const std::size_t chunks = (n + chunk - 1) / chunk;
   std::vector<T> partial;  // assigned, because g++ 12 warns of an invalid free in the filling constructor
   partial.assign(chunks, start);
-  execute(chunks, [&](std::size_t c) {
+  detail::guarded(execute)(chunks, [&](std::size_t c) {
     const std::size_t end = std::min(n, (c + 1) * chunk);
     T sum = term(c * chunk);
     for (std::size_t i = c * chunk + 1; i < end; ++i) sum = combine(sum, term(i));

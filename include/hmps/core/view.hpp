@@ -197,7 +197,7 @@ template <class T, int N, Executor E = Serial>
 void set_zero(const View<T, N>& view, const E& execute = {}) {
   static_assert(!std::is_const_v<T>, "hmps: set_zero writes; give it a writable view");
   require_view(view, "numbers to be set to zero");
-  execute(view.size(), [&](std::size_t i) {
+  detail::guarded(execute)(view.size(), [&](std::size_t i) {
     for (int c = 0; c < N; ++c) view(i, c) = T(0);
   });
 }

@@ -124,10 +124,11 @@ template <class B, class X, class T, int D, class Modulus, PerParticle Vol, Exec
   using K = typename B::Scalar;
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
   const auto common = detail::common_displacement(bonds, x);
-  execute(bonds.block_count(),
-          [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
+  detail::guarded(execute)(bonds.block_count(), [&](std::size_t block) {
+    detail::stage_displacement(bonds, block, x, common, displacement);
+  });
   std::vector<double> error(bonds.size());
-  execute(bonds.block_count(), [&](std::size_t block) {
+  detail::guarded(execute)(bonds.block_count(), [&](std::size_t block) {
     const Lanes<K> squares = detail::misfit_lanes(bonds, block, displacement, F);
     detail::deliver(bonds, block, View<double, 1>({error.data()}, error.size(), sizeof(double)),
                     [&](int) { return squares; });

@@ -126,7 +126,7 @@ void impose_plane_stress(const MatrixView<T, D>& F, const Material& material, co
   }
   std::vector<Matrix<double, D>> across(F.size());
   std::vector<char> failed(F.size(), 0);
-  execute(F.size(), [&](std::size_t i) {
+  detail::guarded(execute)(F.size(), [&](std::size_t i) {
     const Vector<double, D> normal = normals[i].template cast<double>();
     across[i] = F[i].template cast<double>();
     if (normal.isZero(0)) return;

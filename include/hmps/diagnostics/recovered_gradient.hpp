@@ -85,7 +85,7 @@ void recovered_gradients(const B& bonds, const VectorView<X, D>& x, const Matrix
   const auto displacement = [&](std::size_t i) {
     return Vector<double, D>(x[i].template cast<double>() - bonds.reference(i));
   };
-  execute(bonds.size(), [&](std::size_t i) {
+  detail::guarded(execute)(bonds.size(), [&](std::size_t i) {
     const Vector<double, D> own = displacement(i);
     detail::QuadraticFit<D> fit;
     bonds.for_each_bond(i, [&](std::size_t j, const auto& r0, auto w) {

@@ -48,7 +48,7 @@ void green_lagrange_strains(const MatrixView<T, D>& F, const MatrixView<R, D>& s
   detail::require_recorded(F);
   require_size(strain, F.size(), "strains");
   require_apart(strain, "strains", F, "deformation gradients");
-  execute(F.size(), [&](std::size_t i) {
+  detail::guarded(execute)(F.size(), [&](std::size_t i) {
     const Matrix<double, D> gradient = F[i].template cast<double>();
     strain.set(i, green_lagrange_strain(gradient));
   });
@@ -62,7 +62,7 @@ void principal_stretches(const MatrixView<T, D>& F, const VectorView<R, D>& stre
   detail::require_recorded(F);
   require_size(stretches, F.size(), "stretches");
   require_apart(stretches, "stretches", F, "deformation gradients");
-  execute(F.size(), [&](std::size_t i) {
+  detail::guarded(execute)(F.size(), [&](std::size_t i) {
     const Matrix<double, D> gradient = F[i].template cast<double>();
     stretches.set(i, principal_stretches(gradient));
   });

@@ -76,7 +76,7 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
   require_material(material, F.size());
   require_size(stress, F.size(), "stresses");
   require_apart(stress, "stresses", F, "deformation gradients");
-  execute(F.size(), [&](std::size_t i) {
+  guarded(execute)(F.size(), [&](std::size_t i) {
     const Matrix<double, D> gradient = F[i].template cast<double>();
     const auto result = value(value_at(material, OneParticle{i}), gradient);
     if constexpr (std::is_arithmetic_v<decltype(result)>)

@@ -55,9 +55,10 @@ void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const Matri
   require_size(F, bonds.size(), "deformation gradients");
   typename B::template Slots<std::size_t{D}> displacement(bonds.slot_count());
   const auto common = detail::common_displacement(bonds, x);
-  execute(bonds.block_count(),
-          [&](std::size_t block) { detail::stage_displacement(bonds, block, x, common, displacement); });
-  execute(bonds.block_count(), [&](std::size_t block) {
+  detail::guarded(execute)(bonds.block_count(), [&](std::size_t block) {
+    detail::stage_displacement(bonds, block, x, common, displacement);
+  });
+  detail::guarded(execute)(bonds.block_count(), [&](std::size_t block) {
     const auto gradient =
         detail::deformation_gradient_lanes(bonds, block, displacement, bonds.shape_inverse_lanes(block));
     detail::deliver(bonds, block, F, [&](int k) { return gradient(k % D, k / D); });

@@ -128,7 +128,7 @@ template <Bonds B, class E>
   const auto scale = [&](std::size_t k) { return static_cast<double>(scales(0, bonds.slot(k))); };
   std::vector<double> mean(bonds.size());
   for (int pass = 0; pass < means; ++pass) {
-    execute(bonds.size(), [&](std::size_t i) {
+    guarded(execute)(bonds.size(), [&](std::size_t i) {
       double sum = volume_share(bonds, i) * scale(i) * values[i];
       bonds.for_each_bond(
           i, [&](std::size_t j, const auto&, auto) { sum += volume_share(bonds, j) * scale(j) * values[j]; });
@@ -147,7 +147,7 @@ template <Bonds B, class Gradients, class E, class... Terms>
                                                    int means, const E& execute) {
   constexpr int D = B::dimension;
   std::vector<double> dilatation(bonds.size());
-  execute(bonds.size(), [&](std::size_t i) {
+  guarded(execute)(bonds.size(), [&](std::size_t i) {
     dilatation[i] = determinant(Matrix<double, D>(F[i].template cast<double>())) -
                     growth_of<typename B::Scalar, D, double>(terms, OneParticle{i});
   });

@@ -196,7 +196,7 @@ class InternalForce {
     require_finite(x, "the position");
     const detail::BodyState<B> body(now, sweeps_.terms(), x, scales(), execute);
     const auto P = detail::stresses(body, sweeps_.terms(), scales(), execute);
-    execute(now.size(), [&](std::size_t i) { stress.set(i, measure(P[i], body.F[i])); });
+    detail::guarded(execute)(now.size(), [&](std::size_t i) { stress.set(i, measure(P[i], body.F[i])); });
     detail::require_finite_result<D>(stress, body.F, name);
   }
   template <class X, class V>
@@ -219,7 +219,8 @@ class InternalForce {
   template <class X, class V, class E, class Take>
   void evaluate(const B& now, const VectorView<X, D>& x, const VectorView<V, D>& v, const E& execute, Take&& take) {
     const auto common = detail::common_displacement(now, x);
-    execute(now.block_count(), [&](std::size_t block) { sweeps_.stage_state(now, block, x, v, common); });
+    detail::guarded(execute)(now.block_count(),
+                             [&](std::size_t block) { sweeps_.stage_state(now, block, x, v, common); });
     if constexpr (dilates) {
       restricted_.dilated(now, execute, [&](std::size_t block) { sweeps_.dilate(now, block); });
       if constexpr (Sweeps::means == 2)

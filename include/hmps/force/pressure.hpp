@@ -81,7 +81,7 @@ class Pressure {
           !F[i].isZero(0), "hmps: the deformation gradient of particle ", i,
           " is zero, so that no pressure acts there: evaluate the force with `record(F)` among its terms, or "
           "`deformation_gradient`, before the pressure");
-    execute(particles_.size(), [&](std::size_t k) {
+    detail::guarded(execute)(particles_.size(), [&](std::size_t k) {
       const Index i = particles_[k];
       const Matrix<double, D> gradient = F[i].template cast<double>();
       f.add(i, Vector<double, D>(-p * (cofactor(gradient) * area_[k])));

@@ -90,7 +90,7 @@ class ControlRegion {
     const auto pose = motion_(t);
     detail::require_rigid(pose, t);
     const double per_step = 1 / dt, largest = std::min(speed_limit * speed_limit, std::numeric_limits<double>::max());
-    execute(particles_.size(), [&](std::size_t k) {
+    detail::guarded(execute)(particles_.size(), [&](std::size_t k) {
       const std::size_t i = particles_[k];
       const Vector<double, D> target = pose(Vector<double, D>(reference_[i].template cast<double>()));
       const Vector<double, D> rate = (target - x[i].template cast<double>()) * per_step;

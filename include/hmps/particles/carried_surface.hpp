@@ -77,7 +77,7 @@ class CarriedSurface {
     detail::require_plausible_spacing(search, {spacing, 2}, static_cast<S>(2 * spacing), false);
     detail::require_scene(belongs, reference.size(), "that carry a surface");
     std::vector<std::vector<Share>> shares(points.size());
-    execute(points.size(), [&](std::size_t p) {
+    detail::guarded(execute)(points.size(), [&](std::size_t p) {
       shares[p] = shares_of(search, points[p].template cast<double>(), spacing, belongs, p);
     });
     for (const auto& of_point : shares) {
@@ -101,7 +101,7 @@ class CarriedSurface {
     require_size(x, particles_, "positions");
     require_size(places, size(), "places");
     require_apart(places, "places", x, "positions");
-    execute(size(), [&](std::size_t p) {
+    detail::guarded(execute)(size(), [&](std::size_t p) {
       Vector<double, D> place = Vector<double, D>::Zero();
       for (const Share& share : shares(p))
         for (int c = 0; c < D; ++c) place[c] += share.weight * static_cast<double>(x(share.particle, c));
@@ -132,7 +132,7 @@ class CarriedSurface {
     require_size(quantity, particles_, "a quantity");
     require_size(values, size(), "values");
     require_apart(values, "values", quantity, "a quantity");
-    execute(size(), [&](std::size_t p) {
+    detail::guarded(execute)(size(), [&](std::size_t p) {
       double sum = 0;
       for (const Share& share : shares(p)) sum += share.*factor * static_cast<double>(quantity[share.particle]);
       values[p] = static_cast<P>(sum);

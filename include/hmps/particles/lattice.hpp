@@ -136,7 +136,7 @@ template <class S, int D, Executor E>
   require(start.back() < std::numeric_limits<Index>::max(), "hmps: the shape holds ", start.back(),
           " particles, more than a 32-bit index can address; give a larger spacing");
   std::vector<Vector<S, D>> points(start.back());
-  execute(slabs.size(), [&](std::size_t k) {
+  guarded(execute)(slabs.size(), [&](std::size_t k) {
     std::copy(slabs[k].begin(), slabs[k].end(), points.begin() + static_cast<std::ptrdiff_t>(start[k]));
     std::vector<Vector<S, D>>().swap(slabs[k]);
   });
@@ -168,7 +168,7 @@ requires Shape<F, S, D>
   const auto sites = detail::lattice_sites<S, D>(box, spacing, origin);
   const detail::InsideShape<F, S, D> inside(shape, box, spacing, origin);
   std::vector<std::vector<Vector<S, D>>> slabs(static_cast<std::size_t>(sites.count[0]));
-  execute(slabs.size(), [&](std::size_t slab) {
+  detail::guarded(execute)(slabs.size(), [&](std::size_t slab) {
     std::vector<Vector<S, D>> found;
     Vector<S, D> x;
     x[0] = static_cast<S>(sites.coordinate(0, static_cast<std::int64_t>(slab)));

@@ -96,7 +96,7 @@ template <class S, Executor E = Serial>
       detail::tie_shift<double, 3>(detail::surface_tolerance<S, 3>(box, static_cast<double>(spacing), origin));
   std::vector<std::vector<Vector<S, 3>>> slabs(static_cast<std::size_t>(sites.count[0]));
   std::vector<std::size_t> doubtful(slabs.size(), 0), sure(slabs.size(), 0);
-  execute(slabs.size(), [&](std::size_t slab) {
+  detail::guarded(execute)(slabs.size(), [&](std::size_t slab) {
     std::size_t in_doubt = 0, surely_inside = 0;
     Vector<double, 3> x;
     x[0] = sites.coordinate(0, static_cast<std::int64_t>(slab));

@@ -53,8 +53,9 @@ template <class T, class S, Executor E = Serial>
   detail::require_extent(points, patch, distance);
   const TriangleTree tree(patch);
   std::vector<char> is_near(points.size(), 0);
-  execute(points.size(),
-          [&](std::size_t i) { is_near[i] = tree.distance(points[i].template cast<double>()) <= distance ? 1 : 0; });
+  detail::guarded(execute)(points.size(), [&](std::size_t i) {
+    is_near[i] = tree.distance(points[i].template cast<double>()) <= distance ? 1 : 0;
+  });
   ParticleSet found(points.size(), [&](std::size_t i) { return is_near[i] != 0; });
   detail::require(
       !found.empty(), "hmps: no particle lies within ", distance, " m of ", patch.source,

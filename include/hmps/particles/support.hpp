@@ -152,7 +152,8 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
                                                   const Bonded& bonded = {}, const E& execute = {}) {
   const detail::Supports<T, D, Bonded> supports(points, settings, bonded);
   std::vector<double> support(points.size());
-  execute(points.size(), [&](std::size_t i) { support[i] = supports(i, [](std::size_t) { return true; }); });
+  detail::guarded(execute)(points.size(),
+                           [&](std::size_t i) { support[i] = supports(i, [](std::size_t) { return true; }); });
   std::vector<WeakParticle> weak;
   for (std::size_t i = 0; i < support.size(); ++i)
     if (support[i] < settings.threshold) weak.push_back({static_cast<Index>(i), support[i]});

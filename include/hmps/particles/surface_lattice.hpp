@@ -144,7 +144,7 @@ template <class S, Executor E = Serial>
 
   const auto rows = static_cast<std::size_t>(sites.count[1]);
   std::vector<std::vector<Vector<S, 3>>> slabs(static_cast<std::size_t>(sites.count[0]));
-  execute(slabs.size(), [&](std::size_t slab) {
+  detail::guarded(execute)(slabs.size(), [&](std::size_t slab) {
     const auto before = [](const detail::Crossing& crossing, std::size_t column) { return crossing.column < column; };
     auto at = std::lower_bound(crossings.begin(), crossings.end(), slab * rows, before);
     const auto end = std::lower_bound(at, crossings.end(), (slab + 1) * rows, before);

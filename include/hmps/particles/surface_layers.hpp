@@ -102,7 +102,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
         visit(j, Vector<double, D>(points[j].template cast<double>() - here));
   };
   std::vector<char> layer(points.size(), 0);
-  execute(points.size(), [&](std::size_t i) {
+  detail::guarded(execute)(points.size(), [&](std::size_t i) {
     std::vector<Vector<double, D>> to;
     for_each(i, [&](Index, const Vector<double, D>& r) { to.push_back(r); });
     // The nearest neighbours block most directions.
@@ -121,7 +121,7 @@ template <class T, int D, class Bonded = EveryBond, Executor E = Serial>
                       " particles, so that all are outermost; it must hold for particles of one body");
     }
   std::vector<char> second(points.size(), 0);
-  execute(points.size(), [&](std::size_t i) {
+  detail::guarded(execute)(points.size(), [&](std::size_t i) {
     if (layer[i] == 1) return;
     bool found = false;
     for_each(

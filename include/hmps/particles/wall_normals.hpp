@@ -63,7 +63,7 @@ template <class F, class S, int D, Executor E = Serial>
   detail::require_resolved(positions, spacing);
   std::vector<Vector<T, D>> normals(positions.size());
   const auto distance = [&shape](const Vector<double, D>& x) { return shape(Vector<T, D>(x.template cast<T>())); };
-  execute(positions.size(), [&](std::size_t i) {
+  detail::guarded(execute)(positions.size(), [&](std::size_t i) {
     const Vector<double, D> x = positions[i].template cast<double>();
     normals[i] = detail::direction_of_slope(distance, x, spacing).template cast<T>();
   });

@@ -197,7 +197,7 @@ template <class T, int D, Executor E = Serial>
   const std::size_t n = points.size();
   detail::require_listable(search, radius);
   std::vector<std::vector<Index>> above(n);
-  execute(n, [&](std::size_t i) {
+  detail::guarded(execute)(n, [&](std::size_t i) {
     std::vector<Index>& found = above[i];
     search(points[i], radius, found);
     std::erase_if(found, [i](Index j) { return j <= i; });

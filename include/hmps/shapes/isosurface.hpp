@@ -91,7 +91,7 @@ class IsosurfaceMaker {
 
   template <class E>
   void evaluate(std::size_t k, std::vector<S>& plane, const E& execute) {
-    execute(nodes_[1], [&](std::size_t j) {
+    guarded(execute)(nodes_[1], [&](std::size_t j) {
       for (std::size_t i = 0; i < nodes_[0]; ++i) plane[j * nodes_[0] + i] = value(place({i, j, k}));
     });
   }
@@ -156,7 +156,7 @@ class IsosurfaceMaker {
     constexpr int halvings = 12;
     const std::size_t first = mesh_.vertices.size();
     mesh_.vertices.resize(first + cut_.size());
-    execute(cut_.size(), [&](std::size_t k) {
+    guarded(execute)(cut_.size(), [&](std::size_t k) {
       auto [inside, outside] = cut_[k];
       if (!(value(inside) < 0)) std::swap(inside, outside);
       for (int halving = 0; halving < halvings; ++halving) {

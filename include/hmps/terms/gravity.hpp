@@ -48,7 +48,7 @@ struct Gravity {
   void add(const VectorView<F, D>& f, const E& execute = {}) const {
     require_view(f, "force densities");
     require_positive(density, f.size(), "density", "kg/m3");
-    execute(f.size(), [&](std::size_t i) {
+    detail::guarded(execute)(f.size(), [&](std::size_t i) {
       f.add(i, Vector<double, D>(static_cast<double>(at_particle(density, i)) * acceleration));
     });
   }

@@ -43,7 +43,7 @@ void kick(const VectorView<T, D>& v, const VectorView<U, D>& f, const Rho& rho, 
   require_apart(v, "velocities", f, "force densities");
   require_positive(rho, v.size(), "density", "kg/m3");
   detail::require_step(dt);
-  execute(v.size(), [&](std::size_t i) {
+  detail::guarded(execute)(v.size(), [&](std::size_t i) {
     for (int c = 0; c < D; ++c) detail::kick(v(i, c), f(i, c), at_particle(rho, i), dt);
   });
 }
@@ -65,7 +65,7 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, double dt, cons
   require_size(v, x.size(), "velocities");
   require_apart(x, "positions", v, "velocities");
   detail::require_step(dt);
-  execute(x.size(), [&](std::size_t i) {
+  detail::guarded(execute)(x.size(), [&](std::size_t i) {
     for (int c = 0; c < D; ++c)
       x(i, c) = static_cast<T>(static_cast<Real>(x(i, c)) + static_cast<Real>(v(i, c)) * static_cast<Real>(dt));
   });
@@ -120,7 +120,7 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorVie
   require_size(carry, x.size(), "carries");
   detail::require_step(dt);
   detail::require_carry(x, v, carry, dt);
-  execute(x.size(), [&](std::size_t i) {
+  detail::guarded(execute)(x.size(), [&](std::size_t i) {
     for (int c = 0; c < D; ++c) {
       const T old = x(i, c);
       const T increment = static_cast<T>(static_cast<double>(v(i, c)) * dt - static_cast<double>(carry(i, c)));

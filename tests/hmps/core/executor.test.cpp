@@ -9,8 +9,10 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <vector>
 
 #include "../../reference/backwards.hpp"
+#include "../../reference/two_threads.hpp"
 
 namespace executor_test {
 
@@ -35,6 +37,37 @@ TEST(Serial, CallsTheBodyOnceForEachInOrder) {
   hmps::Serial{}(5, [&](std::size_t i) { seen.push_back(i); });
   EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
   hmps::Serial{}(0, [&](std::size_t) { FAIL(); });
+}
+
+TEST(Guarded, KeepsExceptionsFromTheExecutorAndThrowsThatOfTheLowestIndex) {
+  std::vector<int> calls(100, 0);
+  const std::string error = hmps_test::message_in_two_threads([&](const auto& execute) {
+    hmps::detail::guarded(execute)(calls.size(), [&](std::size_t i) {
+      ++calls[i];
+      if (i % 30 == 20) throw hmps::InputError(std::to_string(i));
+    });
+  });
+  EXPECT_EQ(error, "20");
+  EXPECT_EQ(calls, std::vector<int>(100, 1));
+}
+
+TEST(ForEachInChunks, KeepsExceptionsFromTheExecutor) {
+  const std::string error = hmps_test::message_in_two_threads([&](const auto& execute) {
+    hmps::detail::for_each_in_chunks(5000, std::cref(execute), [&](std::size_t i) {
+      if (i == 3000) throw hmps::InputError("3000");
+    });
+  });
+  EXPECT_EQ(error, "3000");
+}
+
+TEST(Reduce, KeepsExceptionsFromTheExecutor) {
+  const auto term = [](std::size_t i) {
+    if (i == 3000) throw hmps::InputError("3000");
+    return 1;
+  };
+  const std::string error = hmps_test::message_in_two_threads(
+      [&](const auto& execute) { (void)hmps::reduce(5000, 0, term, std::plus<>(), execute); });
+  EXPECT_EQ(error, "3000");
 }
 
 TEST(ForEachInChunks, CallsTheBodyOnceForEach) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../../reference/message_of.hpp"
+#include "../../reference/two_threads.hpp"
 #include "../bonds/bonds_of_a_scene.hpp"
 #include "equations.hpp"
 #include "hmps/force/deformation_gradient.hpp"
@@ -432,6 +433,29 @@ TEST(InternalForce, RefusesAPairTermThatIsNotFinite) {
       hmps_test::message_of([&] { (void)hmps::internal_force(bonds, Pull{std::numeric_limits<double>::quiet_NaN()}); });
   EXPECT_NE(text.find("a pair term pulls particle"), std::string::npos) << text;
   EXPECT_NO_THROW((void)hmps::internal_force(bonds, Pull{1}));  // infinite at rest only
+}
+
+/// A law that refuses every state from some time on.
+struct Refusing {
+  const bool* refuses;
+  template <class T, int D>
+  hmps::Matrix<T, D> second_piola_kirchhoff(const hmps::Matrix<T, D>& C, const T&) const {
+    if (*refuses) throw hmps::StateError("the law of the user refuses this state");
+    return T(1e3) * (C - hmps::Matrix<T, D>::Identity());
+  }
+};
+
+TEST(InternalForce, KeepsTheErrorOfALawFromTheUsersThreads) {
+  std::vector<Eigen::Vector3d> x;
+  for (int k = 0; k < 216; ++k) x.emplace_back(1e-3 * (k / 36), 1e-3 * (k / 6 % 6), 1e-3 * (k % 6));
+  const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(x), {.spacing = 1e-3});
+  bool refuses = false;
+  auto force = hmps::internal_force(bonds, hmps::elastic(Refusing{&refuses}));
+  refuses = true;
+  std::vector<Eigen::Vector3d> f(x.size());
+  const std::string error = hmps_test::message_in_two_threads<hmps::StateError>(
+      [&](const auto& execute) { force(hmps::vectors(x), hmps::vectors(f), execute); });
+  EXPECT_EQ(error, "the law of the user refuses this state");
 }
 
 }  // namespace internal_force_use_test

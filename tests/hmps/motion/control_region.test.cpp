@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "../../reference/two_threads.hpp"
+
 namespace control_region_test {
 
 using hmps::ControlRegion;
@@ -226,6 +228,16 @@ TEST(ControlRegion, RejectsAPoseThatIsNotARotation) {
   const ControlRegion squeezed(std::vector<Index>{1}, reference,
                                [&](double) { return [&](const V& place) { return V(sheared * place); }; });
   EXPECT_NO_THROW(squeezed.prescribe(hmps::vectors(x), hmps::vectors(v), 0, 1e-3));
+}
+
+TEST(ControlRegion, KeepsTheErrorOfAParticleFromTheUsersThreads) {
+  std::vector<Eigen::Vector3d> reference(10, Eigen::Vector3d::Zero()), x = reference, v = reference;
+  const hmps::ControlRegion region(
+      hmps::ParticleSet(10, [](std::size_t) { return true; }), hmps::vectors(std::as_const(reference)),
+      [](double) { return [](const Vector<double, 3>& X) { return (X.array() + 1).matrix().eval(); }; });
+  const std::string error = hmps_test::message_in_two_threads<hmps::StateError>(
+      [&](const auto& execute) { region.prescribe(hmps::vectors(x), hmps::vectors(v), 0.5, 1e-3, 10.0, execute); });
+  EXPECT_NE(error.find("requires particle 0 to move at 1732"), std::string::npos) << error;
 }
 
 }  // namespace control_region_test

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../../reference/message_of.hpp"
+#include "../../reference/two_threads.hpp"
 #include "hmps/particles/surface_lattice.hpp"
 #include "hmps/shapes/surfaces.hpp"
 
@@ -174,6 +175,17 @@ TEST(CarriedSurface, HasNoPointsAfterAMove) {
   EXPECT_EQ(moved.size(), ball.vertices.size());
   EXPECT_EQ(carried.size(), 0U);                      // NOLINT(bugprone-use-after-move)
   EXPECT_THROW((void)carried.shares(0), InputError);  // NOLINT(bugprone-use-after-move)
+}
+
+TEST(CarriedSurface, KeepsTheErrorOfAPointFromTheUsersThreads) {
+  Ball ball;
+  ball.vertices[5] += V(1, 0, 0);
+  ball.vertices.back() += V(1, 0, 0);
+  const std::string error = hmps_test::message_in_two_threads([&](const auto& execute) {
+    const auto every = [](std::size_t) { return true; };
+    (void)CarriedSurface(vectors(ball.reference), vectors(ball.vertices), l0, every, execute);
+  });
+  EXPECT_NE(error.find("point 5 of a carried surface"), std::string::npos) << error;
 }
 
 }  // namespace carried_surface_test

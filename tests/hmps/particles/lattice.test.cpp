@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "../../reference/two_threads.hpp"
+
 namespace lattice_test {
 
 using hmps::Box;
@@ -200,6 +202,15 @@ TEST(LatticeMisuse, IsRefusedWhereItsScalarDoesNotResolveTheSpacing) {
   // The origin of the lattice too is given in that scalar.
   const Box<float, 2> box{Vector<float, 2>(0, 0), Vector<float, 2>(0.01f, 0.01f)};
   EXPECT_THROW((void)hmps::fill_lattice(box, 1e-3f, Vector<float, 2>(1e4f, 0)), hmps::InputError);
+}
+
+TEST(FillLattice, KeepsTheErrorOfTheShapeFromTheUsersThreads) {
+  using V = Vector<double, 3>;
+  const auto broken = [](const V& x) { return x[0] < 0.2 ? std::numeric_limits<double>::quiet_NaN() : x[0] - 0.5; };
+  const std::string error = hmps_test::message_in_two_threads([&](const auto& execute) {
+    (void)hmps::fill_lattice(broken, Box<double, 3>{V::Zero(), V::Ones()}, 0.1, V(V::Zero()), execute);
+  });
+  EXPECT_NE(error.find("NaN"), std::string::npos) << error;
 }
 
 }  // namespace lattice_test

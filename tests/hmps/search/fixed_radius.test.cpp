@@ -13,6 +13,7 @@
 
 #include "../../reference/backwards.hpp"
 #include "../../reference/scenes.hpp"
+#include "../../reference/two_threads.hpp"
 
 namespace fixed_radius_test {
 
@@ -201,6 +202,14 @@ TEST(NeighbourList, IsEmptyAfterAMove) {
   EXPECT_EQ(moved.size(), 2U);
   EXPECT_EQ(list.size(), 0U);                     // NOLINT(bugprone-use-after-move)
   EXPECT_THROW((void)list[0], hmps::InputError);  // NOLINT(bugprone-use-after-move)
+}
+
+TEST(FindNeighbours, KeepsTheErrorOfAParticleFromTheUsersThreads) {
+  auto points = cloud<double, 3>(200, 7);
+  points[150] = points[20];
+  const std::string error = hmps_test::message_in_two_threads(
+      [&](const auto& execute) { (void)hmps::find_neighbours(hmps::vectors(points), 0.3, execute); });
+  EXPECT_NE(error.find("particles 20 and 150 lie at the same place"), std::string::npos) << error;
 }
 
 }  // namespace fixed_radius_test

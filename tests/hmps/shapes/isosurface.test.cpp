@@ -18,6 +18,7 @@
 #include "hmps/shapes/triangle_tree.hpp"
 #include "reference/backwards.hpp"
 #include "reference/message_of.hpp"
+#include "reference/two_threads.hpp"
 
 namespace isosurface_test {
 
@@ -157,6 +158,15 @@ TEST(IsosurfaceMisuse, IsRefusedWhereItsScalarDoesNotResolveTheCells) {
   };
   EXPECT_NEAR(hmps::volume(surface_at(10)) / hmps::volume(surface_at(0)), 1, 0.01);
   for (const float place : {100.0f, -1e3f, 1e4f}) EXPECT_THROW((void)surface_at(place), hmps::InputError) << place;
+}
+
+TEST(Isosurface, KeepsTheErrorOfTheShapeFromTheUsersThreads) {
+  const auto broken = [](const V<double>& x) {
+    return x[0] > 0 ? std::numeric_limits<double>::quiet_NaN() : x.norm() - 1;
+  };
+  const std::string error = hmps_test::message_in_two_threads(
+      [&](const auto& execute) { (void)isosurface(broken, cube(1.2), 0.3, execute); });
+  EXPECT_NE(error.find("NaN at"), std::string::npos) << error;
 }
 
 }  // namespace isosurface_test

@@ -200,26 +200,26 @@ class RelaxingBody {
   [[nodiscard]] const std::vector<char>& follows() const { return follows_; }
 
   void clear_forces() const {
-    execute_(x_.size(), [&](std::size_t i) {
+    guarded(execute_)(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) f_(i, c) = F(0);
     });
   }
   /// Sets all velocities to zero.
   void stop() const {
-    execute_(x_.size(), [&](std::size_t i) {
+    guarded(execute_)(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) v_(i, c) = V(0);
     });
   }
   /// Sets the velocities of the particles that do not move, and along the axes on which they do not, to zero.
   void hold() const {
-    execute_(x_.size(), [&](std::size_t i) {
+    guarded(execute_)(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c)
         if (!moves(i, c)) v_(i, c) = V(0);
     });
   }
   /// Moves all particles back along their velocities by `time` (s).
   void go_back(double time) const {
-    execute_(x_.size(), [&](std::size_t i) {
+    guarded(execute_)(x_.size(), [&](std::size_t i) {
       for (int c = 0; c < D; ++c) x_(i, c) = static_cast<X>(x_(i, c) - v_(i, c) * time);
     });
   }

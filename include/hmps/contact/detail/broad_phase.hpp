@@ -144,7 +144,7 @@ void BroadPhase<S, D>::search(const Source& source, std::size_t side, const Part
              [&](std::size_t k) { return source.place[part.slaves[k]]; });
   constexpr std::size_t batch = 256;
   std::vector<std::vector<Near>> found((part.masters.size() + batch - 1) / batch);
-  execute(found.size(), [&](std::size_t q) {
+  guarded(execute)(found.size(), [&](std::size_t q) {
     for (std::size_t l = q * batch; l < std::min(part.masters.size(), (q + 1) * batch); ++l) {
       const Index j = part.masters[l];
       grid.visit(source.place[j], source.reach[j] + source.margin, [&](Index k, S) {

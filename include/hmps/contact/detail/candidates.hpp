@@ -181,7 +181,7 @@ void Candidates<S, D, Kernel>::build(const X& x, const E& execute) {
   particles_.centre_origin(x, organs_.particle());
   motion_.restart(particles_.place(), particles_.reach());
   list_.build({organs_, particles_.place(), particles_.reach(), particles_.compression(), particles_.radius(), margin_},
-              [&](std::size_t n, const std::function<void(std::size_t)>& body) { execute(n, body); });
+              std::cref(execute));
   ++rebuilds_;
 }
 

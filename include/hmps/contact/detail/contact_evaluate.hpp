@@ -5,6 +5,7 @@
 #include "hmps/contact/detail/contact_forces.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/step.hpp"
+#include "hmps/core/executor.hpp"
 
 namespace hmps::inline HMPS_ABI {
 
@@ -33,7 +34,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::gather(const X& x, const 
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(gather_batch % width == 0);
   suspect_.assign((masters_.size() + gather_batch - 1) / gather_batch, detail::no_index);
-  execute(suspect_.size(), [&](std::size_t q) {
+  detail::guarded(execute)(suspect_.size(), [&](std::size_t q) {
     const std::size_t end = std::min(masters_.size(), (q + 1) * gather_batch);
     for (std::size_t begin = q * gather_batch; begin < end; begin += width) {
       const auto B = inverse<Lanes<S>, D>(detail::gather_gradients<S, D>(
@@ -139,7 +140,7 @@ template <class X, class V, class G, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V& v, const G& F,
                                                             ContactReport<S>& report, const E& execute) {
   const std::size_t row_count = lists_.active().rows().size() - 1, count = (row_count + batch - 1) / batch;
-  execute(count, [&](std::size_t q) {
+  detail::guarded(execute)(count, [&](std::size_t q) {
     Batch result;
     for (std::size_t r = q * batch; r < std::min(row_count, (q + 1) * batch); ++r) {
       S depth = 0;

@@ -4,6 +4,7 @@
 #include "hmps/contact/detail/contact_declaration.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/step.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/per_particle.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -92,7 +93,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::require_stable(double dt)
 template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::weigh(const E& execute) {
-  execute(load_.size(), [&](std::size_t t) {
+  detail::guarded(execute)(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     S load = 0;
     if (!(own.flags & detail::is_prescribed)) {
@@ -115,7 +116,7 @@ std::size_t MetaballContact<S, D, Kernel, Friction, Penalty>::push(double dt, co
   if (needs_load) weigh(execute);
   const auto& active = lists_.active();
   const std::size_t count = (touching_.size() + batch - 1) / batch;
-  execute(count, [&](std::size_t q) {
+  detail::guarded(execute)(count, [&](std::size_t q) {
     Batch result;
     for (std::size_t c = q * batch; c < std::min(touching_.size(), (q + 1) * batch); ++c) {
       const Index r = touching_[c];
@@ -197,7 +198,7 @@ MetaballContact<S, D, Kernel, Friction, Penalty>::follow(Index r, double dt) {
 template <class S, int D, class Kernel, class Friction, class Penalty>
 template <class Take, class E>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::hand_out(const Take& take, const E& execute) const {
-  execute(load_.size(), [&](std::size_t t) {
+  detail::guarded(execute)(load_.size(), [&](std::size_t t) {
     const auto &own = lists_.active().awake()[t], &next = lists_.active().awake()[t + 1];
     // Rows that do not touch have zero force: adding it is cheaper than testing.
     Quad force{};

@@ -10,6 +10,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -100,7 +101,7 @@ template <class S, int D>
 template <class E>
 void OrganMotion<S, D>::measure(const OrganPairs& organs, const std::vector<Point>& place, const std::vector<S>& reach,
                                 const E& execute) {
-  execute(parts_.size(), [&](std::size_t q) { measure_part(organs, place, reach, parts_[q]); });
+  guarded(execute)(parts_.size(), [&](std::size_t q) { measure_part(organs, place, reach, parts_[q]); });
   std::vector<Point> previous(motion_.size());
   for (std::size_t o = 0; o < motion_.size(); ++o) {
     previous[o] = motion_[o].mean;

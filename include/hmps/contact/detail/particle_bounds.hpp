@@ -14,6 +14,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
@@ -175,7 +176,7 @@ bool ParticleBounds<S, D>::measure(const X& x, const Gradients& F, const std::ve
                                    const CheckInterval& interval, const Listed& is_listed, const E& execute) {
   constexpr std::size_t width = static_cast<std::size_t>(Lanes<S>::width);
   static_assert(chunk % width == 0);
-  execute(chunks_.size(), [&](std::size_t q) {
+  guarded(execute)(chunks_.size(), [&](std::size_t q) {
     Chunk found{false, no_index};
     const std::size_t end = std::min(particle.size(), (q + 1) * chunk);
     for (std::size_t begin = q * chunk; begin < end; begin += width) {

@@ -15,6 +15,7 @@
 #include "hmps/contact/metaball.hpp"
 #include "hmps/contact/normal_density.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -82,7 +83,7 @@ bool SleepingRows<S, D, Kernel>::put_to_sleep(const Source& source, const CheckI
   constexpr std::size_t batch = 64;
   rows_.resize(count);
   kept_.resize(source.list.masters().size());
-  execute((count + batch - 1) / batch, [&](std::size_t q) {
+  guarded(execute)((count + batch - 1) / batch, [&](std::size_t q) {
     for (std::size_t r = q * batch; r < std::min(count, (q + 1) * batch); ++r) rows_[r] = judge(source, interval, r);
   });
   limit_allowances(source);
@@ -134,7 +135,7 @@ bool SleepingRows<S, D, Kernel>::watch(const Source& source, const X& x, std::si
   const auto deviation_squared = [&, &particles = source.particles](std::size_t i) {
     return particles.deviation_squared(x, particle[i], i, since);
   };
-  execute(chunks_.size(), [&](std::size_t q) {
+  guarded(execute)(chunks_.size(), [&](std::size_t q) {
     Chunk found{0, false};
     const std::size_t begin = q * chunk, end = std::min(particle.size(), begin + chunk);
     for (std::size_t i = begin; i < end; ++i)

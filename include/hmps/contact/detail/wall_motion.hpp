@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/inline.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
@@ -106,7 +107,7 @@ class ParticleMotion {
   void update(const X& x, const std::vector<Index>& particle, const E& execute) {
     if (place_.size() != particle.size()) take_in(x, particle);
     moved_.resize(particle.size());
-    execute((particle.size() + chunk - 1) / chunk, [&](std::size_t q) {
+    guarded(execute)((particle.size() + chunk - 1) / chunk, [&](std::size_t q) {
       for (std::size_t n = q * chunk; n < std::min(particle.size(), (q + 1) * chunk); ++n) {
         const Vector<double, D> place = x[particle[n]].template cast<double>();
         set_quad<S>((place - place_[n]).template cast<S>().eval(), moved_[n]);

@@ -11,6 +11,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/math.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -73,7 +74,7 @@ template <Bonds B, class... Terms, class E, int D = B::dimension>
                                                       const typename B::template Slots<1>* scales, const E& execute) {
   const std::size_t n = body.bonds.size();
   std::vector<Matrix<double, D>> P(n);
-  execute(n, [&](std::size_t i) {
+  guarded(execute)(n, [&](std::size_t i) {
     const auto sum = [&](const auto&... term) {
       return (Matrix<double, D>::Zero().eval() + ... + stress_of_term(term, body.particle(i))).eval();
     };
@@ -82,14 +83,14 @@ template <Bonds B, class... Terms, class E, int D = B::dimension>
   require_finite_result<D>(matrices(P), body.F, "stress by the law");
   std::vector<double> pressure(n);
   if (scales != nullptr) {
-    execute(n, [&](std::size_t i) {
+    guarded(execute)(n, [&](std::size_t i) {
       const auto sum = [&](const auto&... term) { return (0.0 + ... + pressure_of_term(term, body.particle(i))); };
       pressure[i] = std::apply(sum, terms);
     });
     constexpr int means = PartsOfForce<typename B::Scalar, D, Terms...>::means;
     pressure = neighbourhood_means(body.bonds, std::move(pressure), *scales, means, execute);
   }
-  execute(n, [&](std::size_t i) { P[i] += pressure[i] * cofactor(body.F[i]); });
+  guarded(execute)(n, [&](std::size_t i) { P[i] += pressure[i] * cofactor(body.F[i]); });
   return P;
 }
 

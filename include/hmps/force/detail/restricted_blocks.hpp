@@ -6,6 +6,7 @@
 
 #include "hmps/bonds/bonds.hpp"
 #include "hmps/core/abi.hpp"
+#include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -69,9 +70,9 @@ class RestrictedBlocks {
   template <class E, class Visit>
   void sweep(const B& bonds, const std::vector<Index>& blocks, const E& execute, Visit& visit) const {
     if (restricted_)
-      execute(blocks.size(), [&](std::size_t k) { visit(blocks[k]); });
+      guarded(execute)(blocks.size(), [&](std::size_t k) { visit(blocks[k]); });
     else
-      execute(bonds.block_count(), visit);
+      guarded(execute)(bonds.block_count(), visit);
   }
 
   bool restricted_ = false;

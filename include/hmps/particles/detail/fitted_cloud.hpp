@@ -51,7 +51,7 @@ class FittedCloud {
     const auto& samples = field_.samples();
     constexpr int most = most_layers;
     std::vector<Parts> parts(samples.size());
-    execute(samples.size(), [&](std::size_t k) { parts[k] = parts_of(samples[k]); });
+    guarded(execute)(samples.size(), [&](std::size_t k) { parts[k] = parts_of(samples[k]); });
     const double share = std::pow(field_.spacing(), D);
     std::array<std::array<double, std::size_t{most + 1}>, 2> passed;  // for each side, so that both get their share
     for (auto& of_side : passed) of_side.fill(0.5);
@@ -73,12 +73,12 @@ class FittedCloud {
   /// One iteration, with the share `left` of all iterations still to go. Returns the longest move in m.
   double iterate(int iteration, double left, const AnyExecutor& execute) {
     if (iteration % between_looks == 0) {
-      execute(particles_.size(), [&](std::size_t i) { look(particles_[i]); });
+      guarded(execute)(particles_.size(), [&](std::size_t i) { look(particles_[i]); });
       find_neighbours(execute);
     }
-    execute(particles_.size(), [&](std::size_t i) { push(i); });
+    guarded(execute)(particles_.size(), [&](std::size_t i) { push(i); });
     const double l0 = field_.spacing(), most = 0.2 * l0 * left, gain = 0.1 * l0 * std::min(1.0, 2 * left);
-    execute(particles_.size(), [&](std::size_t i) {
+    guarded(execute)(particles_.size(), [&](std::size_t i) {
       Particle& p = particles_[i];
       p.moved = 0.8 * p.moved + gain * p.push;
       const double size = p.moved.norm();
@@ -94,7 +94,7 @@ class FittedCloud {
   /// Moves all particles exactly to the middle of their layers.
   void settle(const AnyExecutor& execute) {
     constexpr int most_corrections = 20;
-    execute(particles_.size(), [&](std::size_t i) {
+    guarded(execute)(particles_.size(), [&](std::size_t i) {
       Particle& p = particles_[i];
       for (int k = 0; k < most_corrections; ++k) look(p), level(p);
       look(p);
@@ -221,7 +221,7 @@ class FittedCloud {
     const double reach = (range + 0.4) * field_.spacing();
     near_.resize(particles_.size());
     grid_.build(particles_.size(), reach / 2, [&](std::size_t i) { return particles_[i].place; });
-    execute(particles_.size(), [&](std::size_t i) {
+    guarded(execute)(particles_.size(), [&](std::size_t i) {
       near_[i].clear();
       grid_.visit(particles_[i].place, reach, [&](Index j, double) {
         if (j != i) near_[i].push_back(j);

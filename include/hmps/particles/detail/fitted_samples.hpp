@@ -131,7 +131,7 @@ void FittedField<D>::sample(const AnyExecutor& execute) {
   const std::size_t slabs = count[D - 1], slab = total / slabs;
   std::vector<std::vector<std::pair<std::uint64_t, Found>>> found(slabs);
   const double reach = 0.75 * std::sqrt(static_cast<double>(D)) * spacing_;
-  execute(slabs, [&](std::size_t s) {
+  guarded(execute)(slabs, [&](std::size_t s) {
     for (std::size_t k = 0; k < slab; ++k) {
       Cell cell{};
       std::size_t rest = s * slab + k;
@@ -173,7 +173,7 @@ void FittedField<D>::measure(const AnyExecutor& execute) {
   // The two sides of a wall may meet at up to 60 degrees, as in a wedge. Faces that meet at more form an edge.
   constexpr double opposite = -0.5;
   const double most = most_layers * spacing_, step = spacing_ / 8;
-  execute(surface_.size(), [&](std::size_t k) {
+  guarded(execute)(surface_.size(), [&](std::size_t k) {
     SurfacePoint<D>& point = surface_[k];
     // The largest ball that touches the surface here from within: it grows until it touches elsewhere.
     for (double r = step; r <= most / 2; r += step) {

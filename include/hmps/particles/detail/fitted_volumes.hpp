@@ -94,7 +94,7 @@ template <int D>
   Grid<double, D> grid;
   grid.build(particles.size(), l0, [&](std::size_t i) { return particles[i].place; });
   std::vector<Index> owner(samples.size());
-  execute(samples.size(), [&](std::size_t k) {
+  guarded(execute)(samples.size(), [&](std::size_t k) {
     double least = std::numeric_limits<double>::infinity();
     owner[k] = no_index;
     for (double radius = std::min(l0, farthest); owner[k] == no_index; radius = std::min(2 * radius, farthest)) {
