@@ -33,6 +33,14 @@ class PenaltyStiffness {
     return {k, false};
   }
 
+  /// Fails to compile: a number may be either.
+  template <class N>
+  requires std::is_arithmetic_v<N> PenaltyStiffness(N) : PenaltyStiffness(0, false) {
+    static_assert(!std::is_arithmetic_v<N>,
+                  "hmps: a penalty stiffness is not a plain number: write hmps::PenaltyStiffness::ratio(k_tilde), "
+                  "without unit, or hmps::PenaltyStiffness::fixed(k), in N/m4");
+  }
+
   /// k in N/m4 for density (kg/m3) and step (s), whatever k~ is.
   [[nodiscard]] double coefficient(double density, double dt) const {
     return is_ratio_ ? value_ * density / (dt * dt) : value_;

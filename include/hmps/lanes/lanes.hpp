@@ -54,6 +54,15 @@ struct alignas(detail::lanes_bytes) Lanes {
 template <class T>
 struct alignas(detail::lanes_bytes) LaneMask {
   typename Lanes<T>::Bits lane[static_cast<std::size_t>(Lanes<T>::width)];
+
+  /// Fails to compile, and says what to use in place of an `if` on values.
+  template <std::same_as<bool> B>
+  explicit operator B() const {
+    static_assert(!std::same_as<B, bool>,
+                  "hmps: a comparison of lanes has a result for each of many particles, so that there can be no `if`, "
+                  "`? :`, `&&`, `||` or `!` on it: use hmps::select(condition, this, that)");
+    return false;
+  }
 };
 
 #if defined(HMPS_EACH_REGISTER)

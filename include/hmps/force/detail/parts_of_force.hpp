@@ -15,6 +15,7 @@
 #include "hmps/core/inline.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/lanes/lanes.hpp"
+#include "hmps/laws/law.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace hmps::inline HMPS_ABI::detail {
@@ -25,7 +26,10 @@ struct IsTerm : std::bool_constant<ForceTerm<Term, K, D>> {};
 /// message names it.
 template <class Term, class K, int D>
 struct RequireTerm {
-  static_assert(IsTerm<Term, K, D>::value,
+  static constexpr bool is_law = IsLaw<Term, Lanes<K>, D>::value;
+  static_assert(IsTerm<Term, K, D>::value || !is_law,
+                "hmps: a law is not a term of internal_force; wrap it in one: hmps::elastic(law)");
+  static_assert(IsTerm<Term, K, D>::value || is_law,
                 "hmps: a term of internal_force needs couple(particles, coupling), damping(bonds), damping(particles), "
                 "pressure(particles, theta), tension(bond) or body_force(particles), const; see ForceTerm");
   static constexpr bool value = true;
