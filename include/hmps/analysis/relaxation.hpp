@@ -114,4 +114,11 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
   return result;
 }
 
+/// Explains calls with arrays in place of views.
+template <class Force, class X, class V, class F, class Rho, class... E>
+requires(!detail::AreWrapped<X, V, F, Rho>::value) detail::RequireViews<X, V, F, Rho> relax(Force&&, const X&, const V&,
+                                                                                            const F&, const Rho&,
+                                                                                            const RelaxationSettings&,
+                                                                                            const E&...);
+
 }  // namespace hmps::inline HMPS_ABI

@@ -72,4 +72,11 @@ template <class Force, class X, class V, int D, PerParticle Rho, Executor E = Se
   return detail::StepSearch<T, D>(scene, settings, loops).run();
 }
 
+/// Explains calls with arrays in place of views.
+template <class Force, class X, class V, class Rho, class... E>
+requires(!detail::AreWrapped<X, V, Rho>::value) detail::RequireViews<X, V, Rho> stable_step(Force&&, const X&, const V&,
+                                                                                            const Rho&,
+                                                                                            const StableStepSettings&,
+                                                                                            const E&...);
+
 }  // namespace hmps::inline HMPS_ABI

@@ -54,6 +54,9 @@ class BondList : public Blocks<K, D> {
       : Base(reference, checked_order(reference, settings)) {
     find_bonds(reference, settings, bonded, weight);
   }
+  /// Explains calls with an array in place of a view.
+  template <class X>
+  requires(!detail::AreWrapped<X>::value) BondList(const X&, const BondSettings&, detail::RequireViews<X> = {});
 
   /// The same for particles of different `volumes` (m3; in 2D m2), such as those of `fit_particles`. The weight of a
   /// bond of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material. Forces remain

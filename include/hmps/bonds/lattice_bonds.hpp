@@ -56,6 +56,9 @@ class LatticeBonds : public Blocks<K, D> {
   explicit LatticeBonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded&& bonded = {},
                         Weight&& weight = {})
       : LatticeBonds(reference, settings, checked_cells(reference, settings), bonded, weight) {}
+  /// Explains calls with an array in place of a view.
+  template <class X>
+  requires(!detail::AreWrapped<X>::value) LatticeBonds(const X&, const BondSettings&, detail::RequireViews<X> = {});
 
   /// Calls `visit(j, r0, w)` for each bond of particle `i`: neighbour, reference position relative
   /// to `i` (m) and weight.

@@ -104,6 +104,25 @@ concept EigenView = std::derived_from<std::remove_cvref_t<M>, Eigen::DenseBase<s
 template <class M>
 concept Columns = M::RowsAtCompileTime == 2 || M::RowsAtCompileTime == 3;
 
+/// An array of the user's that is not wrapped in a view.
+template <class A>
+concept Unwrapped = std::derived_from<A, Eigen::DenseBase<A>> || requires(const A& array) {
+  requires Elements<const A>;
+  requires std::floating_point<
+      typename MemberTraits<std::remove_const_t<typename decltype(std::span(array))::element_type>>::Scalar>;
+};
+/// A trait, because clang names the type in the message for a trait, but not for a concept.
+template <class... Arguments>
+struct AreWrapped : std::bool_constant<!(Unwrapped<Arguments> || ...)> {};
+/// Fails to compile for arrays in place of views; the first line of the message names them. It is the result of
+/// overloads that are only declared, `requires(!AreWrapped<Arguments...>::value)`, for the calls that users write most.
+template <class... Arguments>
+struct RequireViews {
+  static_assert(AreWrapped<Arguments...>::value,
+                "hmps: this call takes views of arrays, not arrays: wrap arrays of vectors in hmps::vectors(array), of "
+                "tensors in hmps::matrices(array), of numbers in hmps::scalars(array)");
+};
+
 }  // namespace detail
 
 /// A view of vectors in a range of `Eigen::Vector3d`, `std::array<float, 2>`, … (anything convertible to `std::span`).
@@ -201,5 +220,9 @@ void set_zero(const View<T, N>& view, const E& execute = {}) {
     for (int c = 0; c < N; ++c) view(i, c) = T(0);
   });
 }
+
+/// Explains calls with arrays in place of views.
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> set_zero(const Arguments&...);
 
 }  // namespace hmps::inline HMPS_ABI

@@ -65,4 +65,9 @@ void deformation_gradient(const B& bonds, const VectorView<X, D>& x, const Matri
   });
 }
 
+/// Explains calls with arrays in place of views.
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> deformation_gradient(
+    const Arguments&...);
+
 }  // namespace hmps::inline HMPS_ABI

@@ -124,6 +124,18 @@ class InternalForce {
     });
   }
 
+  /// Explains calls with arrays in place of views.
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...>
+  operator()(const Arguments&...);
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> add(const Arguments&...);
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> kick(const Arguments&...);
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> energy(const Arguments&...)
+  const;
+
   /// The energies of the terms at positions `x` (m), in J; the force is minus the gradient of their sum. With a law and
   /// `mean_dilatation` together, each has the energy of its own bulk modulus. Summed in double, in an order that does
   /// not depend on the executor. For diagnostics, not for every step. Ignores `restrict_to`: it is always the energy of

@@ -88,6 +88,11 @@ class Pressure {
     });
   }
 
+  /// Explains calls with arrays in place of views.
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> add(const Arguments&...)
+  const;
+
   /// The outward area vector of the loaded particles in the reference configuration, in m2 (in two dimensions m), if
   /// each has the volume `volume` (m^D): for a plane face its area along its normal, for a closed surface zero. Throws
   /// `InputError` for a volume that cannot be that of a particle with these bonds.

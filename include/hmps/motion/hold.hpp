@@ -63,4 +63,11 @@ void hold_along(const VectorView<V, D>& v, const ParticleSet& held, const Eigen:
   }
 }
 
+/// Explains calls with arrays in place of views.
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> hold(const Arguments&...);
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> hold_component(
+    const Arguments&...);
+
 }  // namespace hmps::inline HMPS_ABI

@@ -45,4 +45,8 @@ template <class T, int D>
   return {target};
 }
 
+/// Explains calls with arrays in place of views.
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> record(const Arguments&...);
+
 }  // namespace hmps::inline HMPS_ABI

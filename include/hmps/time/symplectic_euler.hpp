@@ -131,4 +131,10 @@ void drift(const VectorView<T, D>& x, const VectorView<U, D>& v, const VectorVie
   });
 }
 
+/// Explains calls with arrays in place of views.
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> kick(const Arguments&...);
+template <class... Arguments>
+requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> drift(const Arguments&...);
+
 }  // namespace hmps::inline HMPS_ABI

@@ -164,6 +164,12 @@ class MetaballContact {
     return report;
   }
 
+  /// Explains calls with arrays in place of views.
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> add(const Arguments&...);
+  template <class... Arguments>
+  requires(!detail::AreWrapped<Arguments...>::value) detail::RequireViews<Arguments...> kick(const Arguments&...);
+
   /// Throws a `StateError` if, by the latest `report`, a wall has lost a slave: time (s, if given), particle, organ,
   /// depth and remedy. Costs one comparison. Call it after each evaluation: a slave that passes through a thin wall is
   /// inside it for a few steps only, and looks valid afterwards. The check misses no slave that moves less than a
