@@ -157,4 +157,18 @@ template <class T, int D>
   return sqrt(mean + sqrt(contract<T, D>(C, C) * T((D - 1.) / D)));
 }
 
+/// An axial vector in `D` dimensions: a vector in 3D, its out-of-plane component in 2D.
+template <int D>
+using Axial = Vector<double, D == 3 ? 3 : 1>;
+
+/// a x b: a vector in 3D, its out-of-plane component in 2D.
+template <int D>
+[[nodiscard]] Axial<D> cross(const Vector<double, D>& a, const Vector<double, D>& b) {
+  if constexpr (D == 3) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  } else {
+    return Axial<D>::Constant(a[0] * b[1] - a[1] * b[0]);
+  }
+}
+
 }  // namespace hmps::inline HMPS_ABI

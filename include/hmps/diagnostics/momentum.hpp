@@ -8,6 +8,7 @@
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
@@ -16,20 +17,6 @@
 /// conserve both momenta. The viscous force of \paper{21} conserves linear momentum, but damps rigid rotation at free
 /// surfaces.
 namespace hmps::inline HMPS_ABI {
-
-/// An axial vector in `D` dimensions: a vector in 3D, its out-of-plane component in 2D.
-template <int D>
-using Axial = Vector<double, D == 3 ? 3 : 1>;
-
-/// a x b: a vector in 3D, its out-of-plane component in 2D.
-template <int D>
-[[nodiscard]] Axial<D> cross(const Vector<double, D>& a, const Vector<double, D>& b) {
-  if constexpr (D == 3) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  } else {
-    return Axial<D>::Constant(a[0] * b[1] - a[1] * b[0]);
-  }
-}
 
 /// Linear momentum in kg m/s, the sum of density * volume * v.
 ///

@@ -108,4 +108,11 @@ TYPED_TEST(MathOf, ScalarHelpers) {
     EXPECT_TRUE(std::isnan(inverse_cube_root(x))) << x;
 }
 
+TEST(Math, CrossProductsInSpaceAndInThePlane) {
+  EXPECT_EQ(cross<3>({1, 0, 0}, {0, 1, 0}), (Vector<double, 3>(0, 0, 1)));
+  EXPECT_EQ(cross<3>({1, 2, 3}, {4, 5, 6}), (Vector<double, 3>(-3, 6, -3)));
+  EXPECT_EQ(cross<2>({1, 0}, {0, 2})[0], 2.0);
+  EXPECT_EQ(cross<2>({0, 2}, {1, 0})[0], -2.0);
+}
+
 }  // namespace math_test

@@ -10,13 +10,6 @@ namespace momentum_test {
 
 using namespace hmps;
 
-TEST(Momentum, CrossProducts) {
-  EXPECT_EQ(cross<3>({1, 0, 0}, {0, 1, 0}), (Vector<double, 3>(0, 0, 1)));
-  EXPECT_EQ(cross<3>({1, 2, 3}, {4, 5, 6}), (Vector<double, 3>(-3, 6, -3)));
-  EXPECT_EQ(cross<2>({1, 0}, {0, 2})[0], 2.0);
-  EXPECT_EQ(cross<2>({0, 2}, {1, 0})[0], -2.0);
-}
-
 template <class T>
 struct MomentumIn : testing::Test {};
 using Scalars = testing::Types<double, float>;
