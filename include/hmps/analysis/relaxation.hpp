@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "hmps/analysis/detail/relaxation_progress.hpp"
 #include "hmps/analysis/detail/relaxing_body.hpp"
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
@@ -49,8 +50,10 @@ namespace hmps::inline HMPS_ABI {
 /// tolerance, and forces of bonds in float as well: a bar of `LatticeBonds<float, 3>` that sags by 23 mm stays at a
 /// residual of 0.005. Keep both in double. Throws `InputError` for bad settings, an empty function as force, a spacing
 /// far from that of the particles, views of different sizes, values that are not finite, and a force that never writes
-/// anything. Throws `StateError` if a force is not finite, if nothing holds the body so that it flies away, if the
-/// unbalanced forces no longer decrease, and after `max_iterations`; the state is then the last one reached.
+/// anything. Throws `StateError` if a force is not finite, if the unbalanced forces no longer decrease, after
+/// `max_iterations`, and if nothing holds the body: once a net force has moved it by half its size, or a net moment has
+/// turned it by a radian, without having changed in size. The message then names both: hold some particles, or subtract
+/// the mean force, and the moment, as for a free body under `Pressure`. The state is the last one reached.
 template <class Force, class X, class V, class F, int D, PerParticle Rho, Executor E = Serial>
 Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                  const Rho& rho, const RelaxationSettings& settings, const E& execute = {}) {
@@ -66,10 +69,9 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
 
   Relaxation result;
   detail::RelaxationStep step(settings);
-  detail::Stalling stalling;
+  detail::RelaxationProgress progress(body, settings);
   body.stop();
   double before = 0, flown = 0;  // power at the start of the last drift; path of the fastest since the last stop, in m
-  const double furthest = 10 * (body.extent() + settings.spacing);
   for (bool at_rest = true;; ++result.iterations) {
     body.clear_forces();
     force(Read(x), VectorView<const V, D>(v), f);
@@ -99,8 +101,7 @@ Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D
       ++result.peaks;
       continue;
     }
-    stalling.require_progress(result, settings, step.damped());
-    if (flown += sums.fastest * step.value(); flown > furthest) detail::throw_flown(result, flown);
+    progress.require(result, step.damped(), flown += sums.fastest * step.value());
     step.update(force, Read(x), VectorView<const V, D>(v), rho, sums.fastest, execute);
     const double kicked = at_rest ? step.value() / 2 : step.value();
     kick(v, f, rho, kicked, execute);

@@ -58,23 +58,36 @@ inline void validate(const RelaxationSettings& s) {
           " s; it must be positive, or 0 for that of stable_step");
 }
 
-[[noreturn]] inline void throw_flown(const Relaxation& result, double path) {
+/// `whole`: what `FreeMotion::remark` says of the net force and moment.
+[[noreturn]] inline void throw_flown(const Relaxation& result, double path, const std::string& whole) {
   throw StateError(message("hmps: after ", result.iterations, " iterations of relax, particles have flown ", path,
-                           " m without stopping, ten times the size of the body: nothing holds it; does `moves` "
-                           "exclude the particles that are held, and does the load press it against something?"));
+                           " m without stopping, ten times the size of the body: nothing holds it; ",
+                           whole.empty() ? "does `moves` exclude the particles that are held, and does the load press "
+                                           "it against something?"
+                                         : whole + ": hold some particles, or subtract the mean force, and the moment, "
+                                                   "from the forces"));
 }
 
-/// `stalled`: more iterations do not help.
+/// `stalled`: more iterations do not help. `whole` as for `throw_flown`.
 [[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings, bool damped,
-                                           bool stalled) {
+                                           bool stalled, const std::string& whole) {
+  const std::string begin =
+      message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
+              result.residual, " of the load, ", result.load, " N; ");
+  const std::string end = message(", or a larger tolerance than ", settings.tolerance);
+  if (!whole.empty())
+    throw StateError(message(begin, whole,
+                             ": unless something else holds the body it cannot come to rest; hold some "
+                             "particles, or subtract the mean force, and the moment, from the forces; otherwise allow "
+                             "more max_iterations than ",
+                             settings.max_iterations, end));
   throw StateError(message(
-      "hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ", result.residual,
-      " of the load, ", result.load, " N; ",
+      begin,
       stalled
           ? "they no longer decrease, because they are rounding, or because a contact opens and closes: if bonds or "
             "positions are in float, use double"
           : "if bonds or positions are in float, use double; otherwise allow more max_iterations than ",
-      stalled ? "" : std::to_string(settings.max_iterations), ", or a larger tolerance than ", settings.tolerance,
+      stalled ? "" : std::to_string(settings.max_iterations), end,
       damped ? "; damping shortened its step: leave viscosity out, and give a contact with friction a longer "
                "dt, about the step of relax without friction"
              : "",

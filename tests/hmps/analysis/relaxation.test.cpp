@@ -581,14 +581,100 @@ TEST(Relax, RejectsAForceThatIgnoresItsArguments) {
   EXPECT_EQ(relax(springs, body.x(), body.v(), body.f(), density, {.spacing = l0, .load = 1}).iterations, 0);
 }
 
-// Earlier, the body fell for all permitted iterations, and the message asked for more of them.
-TEST(Relax, ReportsABodyThatNothingHolds) {
+// Earlier, the body fell until it had moved by ten times its size, or for all permitted iterations, and the message
+// asked for more of them or about held particles.
+TEST(Relax, ReportsTheNetForceOnABodyThatNothingHolds) {
   Standing<double, 2> body(column<2>(3, 6));
   auto force = internal_force(body.bonds, elastic(linear), artificial(young));
-  const std::string words = words_of([&] {
-    (void)relax(body.with_weight(force), body.x(), body.v(), body.f(), density, {.spacing = l0, .load = body.weight()});
-  });
+  const double pull = 100;  // N/m3, on the three particles at the end
+  const auto pulled = [&](const auto& x, const auto& v, const auto& f) {
+    force(x, v, f);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (body.reference[i][1] > 4.5 * l0) f.add(i, Vector<double, 2>(0, pull));
+  };
+  RelaxationSettings settings{.spacing = l0, .load = 3 * pull * body.volume};
+  std::string words = words_of([&] { (void)relax(pulled, body.x(), body.v(), body.f(), density, settings); });
   EXPECT_TRUE(has(words, "nothing holds it")) << words;
+  EXPECT_TRUE(has(words, "no particle is held against the net force of (")) << words;
+  EXPECT_TRUE(has(words, " 0.0012)")) << words;
+  EXPECT_TRUE(has(words, "subtract the mean force")) << words;
+  // The body has moved by no more than its size.
+  EXPECT_LT(body.position[0][1], 6 * l0);
+  // With too few iterations to see it, the message names the force, too.
+  body.position = body.reference;
+  settings.max_iterations = 50;
+  words = words_of([&] { (void)relax(pulled, body.x(), body.v(), body.f(), density, settings); });
+  EXPECT_TRUE(has(words, "the net force of (")) << words;
+  EXPECT_TRUE(has(words, "otherwise allow more max_iterations than 50")) << words;
+  // Where particles are held along one axis, a force along the other counts.
+  body.position = body.reference;
+  settings.max_iterations = 100000;
+  settings.moves_along = [](std::size_t i, int c) { return c == 1 || i > 5; };
+  words = words_of([&] { (void)relax(pulled, body.x(), body.v(), body.f(), density, settings); });
+  EXPECT_TRUE(has(words, "the net force of (0 0.0012")) << words;
+  // A held particle leaves nothing to report.
+  body.position = body.reference;
+  settings.moves_along = nullptr;
+  settings.moves = body.moves();
+  EXPECT_LE(relax(pulled, body.x(), body.v(), body.f(), density, settings).residual, 1e-3);
+}
+
+/// A bar along y whose ends two forces turn, across it as it lies at the time, or in the direction x.
+struct Turned {
+  Standing<double, 2> body{column<2>(3, 12)};
+  double push = 100;  // N/m3, on three particles at either end
+  std::string words;
+  Relaxation found;
+
+  explicit Turned(bool follows) {
+    auto internal =
+        internal_force(body.bonds, elastic(NeoHookean<>::from_young_poisson(young, 0.3)), artificial(young));
+    const std::size_t n = body.position.size();
+    const auto force = [&](const auto& x, const auto& v, const auto& f) {
+      internal(x, v, f);
+      const Vector<double, 2> along = (x[n - 1] - x[n - 12]).normalized();
+      const Vector<double, 2> across = follows ? Vector<double, 2>(along[1], -along[0]) : Vector<double, 2>(1, 0);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (body.reference[i][1] > 10.5 * l0) f.add(i, push * across);
+        if (body.reference[i][1] < 0.5 * l0) f.add(i, -push * across);
+      }
+    };
+    words = words_of([&] {
+      found = relax(force, body.x(), body.v(), body.f(), density, {.spacing = l0, .load = 6 * push * body.volume});
+    });
+  }
+};
+
+// Earlier, the bar turned until its ends had moved by ten times its length, and the message asked about held particles.
+TEST(Relax, ReportsTheNetMomentOnABodyThatNothingHolds) {
+  const Turned spinning(true);
+  EXPECT_TRUE(has(spinning.words, "nothing holds it")) << spinning.words;
+  EXPECT_TRUE(has(spinning.words, "and the net moment of (-2.6")) << spinning.words;  // 6 * push * volume * 11 l0 / 2
+  EXPECT_TRUE(has(spinning.words, "while the body turns")) << spinning.words;
+  // Dead loads turn the bar only until it lies along them.
+  const Turned aligned(false);
+  EXPECT_EQ(aligned.words, "");
+  EXPECT_LE(aligned.found.residual, 1e-3);
+  const Vector<double, 2> along =
+      aligned.body.position.back() - aligned.body.position[aligned.body.position.size() - 12];
+  EXPECT_GT(along[0], 0.99 * along.norm());
+}
+
+// A force may hold a body of which every particle moves: the search goes on while it falls on a floor.
+TEST(Relax, LetsAFreeBodyFallOnAFloor) {
+  Standing<double, 2> body(column<2>(3, 6));
+  body.pull = Vector<double, 2>(0, -1);
+  auto internal = internal_force(body.bonds, elastic(linear), artificial(young));
+  auto weighed = body.with_weight(internal);
+  const double floor = -2 * l0, stiffness = young / (l0 * l0);
+  const auto force = [&](const auto& x, const auto& v, const auto& f) {
+    weighed(x, v, f);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (x[i][1] < floor) f.add(i, Vector<double, 2>(0, stiffness * (floor - x[i][1])));
+  };
+  const double weight = 18 * density * body.volume;
+  EXPECT_LE(relax(force, body.x(), body.v(), body.f(), density, {.spacing = l0, .load = weight}).residual, 1e-3);
+  EXPECT_NEAR(body.position[0][1], floor, 0.01 * l0);
 }
 
 TEST(Relax, BadInputIsRefused) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/math.hpp"
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/per_particle.hpp"
 #include "hmps/core/view.hpp"
@@ -34,6 +36,14 @@ struct Unbalanced {
   [[nodiscard]] static Unbalanced join(const Unbalanced& a, const Unbalanced& b) {
     return {a.moving + b.moving, a.held + b.held, a.power + b.power, a.gain + b.gain, std::max(a.fastest, b.fastest)};
   }
+};
+
+/// All forces on a body together, along the axes along which every particle moves, and where the body is.
+template <int D>
+struct Resultant {
+  Vector<double, D> force = Vector<double, D>::Zero();   ///< N
+  Axial<D> moment = Axial<D>::Zero();                    ///< N m about the centre
+  Vector<double, D> centre = Vector<double, D>::Zero();  ///< m, of the volume
 };
 
 /// The step of a relaxation: a fraction of the largest stable step. The estimate is refreshed after the particles have
@@ -93,34 +103,6 @@ class RelaxationStep {
   int evaluations_ = 0;
 };
 
-/// Tells whether a relaxation no longer gets closer to rest. While rounding makes the forces, their peaks come every
-/// few steps, with the stiffest motion. Without rounding that motion would have died away by a factor at each of so
-/// many peaks, and the peaks of slower motion would come later.
-class Stalling {
- public:
-  /// Takes each iteration; true if the last `window` peaks came fast and did not lower the least residual by a fifth.
-  [[nodiscard]] bool update(const Relaxation& now) {
-    if (now.residual < least_) least_ = now.residual;
-    if (now.peaks < start_.peaks + window) return false;
-    const bool fast = now.iterations - start_.iterations < 6 * window, stalled = fast && least_ > 0.8 * before_;
-    start_ = now;
-    before_ = least_;
-    return stalled;
-  }
-
-  /// Throws `StateError` if the search stalls or has made all permitted iterations. Where damping limits the step, a
-  /// body moves for long without less unbalance, so that no stall shows.
-  void require_progress(const Relaxation& now, const RelaxationSettings& settings, bool damped) {
-    const bool stalled = update(now) && !damped;
-    if (stalled || now.iterations >= settings.max_iterations) throw_not_at_rest(now, settings, damped, stalled);
-  }
-
- private:
-  static constexpr int window = 1000;  // peaks
-  Relaxation start_;
-  double least_ = std::numeric_limits<double>::infinity(), before_ = least_;
-};
-
 /// Throws `InputError` if `force` writes nothing to `f` even when all particles are displaced from `x` by about a
 /// thousandth of `spacing` (m): then it does not read the positions that it is given.
 template <class Force, class X, class V, class F, int D>
@@ -175,23 +157,27 @@ template <class F, int D>
 template <class X, class V, class F, int D, class Rho, class E>
 class RelaxingBody {
  public:
+  static constexpr int dimension = D;
   /// Throws `InputError` if no particle moves, or if all move and no load is given.
   RelaxingBody(const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f, const Rho& rho,
                const RelaxationSettings& settings, const E& execute)
       : x_(x), v_(v), f_(f), rho_(rho), execute_(execute), volume_(std::pow(settings.spacing, D)), follows_(x.size()) {
+    free_.fill(true);
     std::size_t count = 0;  // of components that move
     for (std::size_t i = 0; i < follows_.size(); ++i)
       for (int c = 0; c < D; ++c) {
         const bool moves =
             (!settings.moves || settings.moves(i)) && (!settings.moves_along || settings.moves_along(i, c));
         follows_[i] = static_cast<char>(follows_[i] | int(moves) << c);
+        free_[static_cast<std::size_t>(c)] &= moves;
         count += moves;
       }
     if (settings.volume) take_volumes(settings);
     require(count > 0, "hmps: no particle of relax moves; `moves` and `moves_along` must be true for some");
-    require(settings.load > 0 || count < D * follows_.size(),
-            "hmps: every particle of relax moves and no load is given; give the load in N with which unbalanced "
-            "forces are compared");
+    require(
+        settings.load > 0 || count < D * follows_.size(),
+        "hmps: every particle moves and `load` is not set; give relax the load in N with which unbalanced forces are "
+        "compared");
   }
 
   /// l0^D in m^D.
@@ -223,6 +209,11 @@ class RelaxingBody {
       for (int c = 0; c < D; ++c) x_(i, c) = static_cast<X>(x_(i, c) - v_(i, c) * time);
     });
   }
+  /// Whether every particle moves along the axis `c`.
+  [[nodiscard]] bool free(int c) const { return free_[static_cast<std::size_t>(c)]; }
+  [[nodiscard]] std::size_t size() const { return x_.size(); }
+  /// The position of particle `i` in m.
+  [[nodiscard]] Vector<double, D> place(std::size_t i) const { return x_[i].template cast<double>(); }
   /// The diagonal in m of the box around all particles.
   [[nodiscard]] double extent() const {
     Vector<double, D> low = x_[0].template cast<double>(), high = low;
@@ -238,17 +229,40 @@ class RelaxingBody {
       Vector<double, D> push = f_[i].template cast<double>(), held = Vector<double, D>::Zero();
       for (int c = 0; c < D; ++c)
         if (!moves(i, c)) std::swap(push[c], held[c]);
-      const double size = push.norm(), share = shares_.empty() ? 1.0 : shares_[i];
-      return Unbalanced{.moving = share * size,
-                        .held = share * held.norm(),
-                        .power = share * push.dot(speed),
-                        .gain = share * size * size / static_cast<double>(at_particle(rho_, i)),
+      const double size = push.norm(), part = share(i);
+      return Unbalanced{.moving = part * size,
+                        .held = part * held.norm(),
+                        .power = part * push.dot(speed),
+                        .gain = part * size * size / static_cast<double>(at_particle(rho_, i)),
                         .fastest = speed.norm()};
     };
     return reduce(x_.size(), Unbalanced{}, of, Unbalanced::join, execute_);
   }
+  /// What the forces exert on the body as a whole; zero along the axes, and about those, on which a particle is held.
+  [[nodiscard]] Resultant<D> resultant() const {
+    Resultant<D> sum;
+    double whole = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      sum.centre += share(i) * place(i);
+      whole += share(i);
+    }
+    sum.centre /= whole;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const Vector<double, D> own = share(i) * volume_ * f_[i].template cast<double>();
+      sum.force += own;
+      sum.moment += cross<D>(Vector<double, D>(place(i) - sum.centre), own);
+    }
+    for (int c = 0; c < D; ++c)
+      if (!free(c)) {
+        sum.force[c] = 0;
+        for (int a = 0; a < sum.moment.size(); ++a)
+          if (D == 2 || a != c) sum.moment[a] = 0;
+      }
+    return sum;
+  }
 
  private:
+  [[nodiscard]] double share(std::size_t i) const { return shares_.empty() ? 1.0 : shares_[i]; }
   [[nodiscard]] bool moves(std::size_t i, int c) const { return (follows_[i] >> c & 1) != 0; }
   /// Throws `InputError` for volumes that are not positive or do not fit the spacing.
   void take_volumes(const RelaxationSettings& settings) {
@@ -271,6 +285,7 @@ class RelaxingBody {
   const E& execute_;
   double volume_;
   std::vector<char> follows_;
+  std::array<bool, D> free_;
   std::vector<double> shares_;  // V / l0^D; empty if that is 1
 };
 
