@@ -199,7 +199,8 @@ concept PairTerm = requires(const Term& term, const BondState<Lanes<K>, D>& bond
 };
 
 /// An external force on each particle: `term.body_force(particles)`, of a `BlockParameters`, is the force density in
-/// N/m3, `Vector<Lanes<K>, D>`. It changes the momentum of the body. Model: `Gravity`.
+/// N/m3, `Vector<Lanes<K>, D>`. It changes the momentum of the body. Models: `Gravity`,
+/// `DeadLoad`.
 template <class Term, class K, int D>
 concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& particles) {
   { term.body_force(particles) } -> std::convertible_to<Vector<Lanes<K>, D>>;
@@ -211,7 +212,8 @@ concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& 
 /// `internal_force` calls both in the constructor. For `InternalForce::energy`, a `PairTerm` has `term.energy(bond)`,
 /// other terms `term.energy(particle)`: see `ForceEnergy`. For `InternalForce::cauchy_stresses`, a `CouplingTerm` needs
 /// `term.stress(particle)`, and a `DilatationTerm` `term.pressure(particle)`: see `ParticleState`. Models: the
-/// results of `elastic`, `artificial`, `viscous`, `mean_dilatation`, `gravity` and `record`; a struct of your own.
+/// results of `elastic`, `artificial`, `viscous`, `mean_dilatation`, `gravity`, `dead_load` and `record`; a struct of
+/// your own.
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||
     DilatationTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;
