@@ -165,22 +165,25 @@ Problem long_wall() {
 
 Problem thick_cylinder() {
   using namespace pressure_detail;
-  return {.name = "thick cylinder",
-          .title = "16. Thick cylinder",
-          .text =
-              "A tube of the same material in plane strain, with radii from 7 to 18.625 m, under an inner pressure "
-              "of 100 MPa. It is a full ring on the lattice, whose faces have steps." +
-              on_faces,
-          .quantities = {{.name = "inner face", .unit = "m", .answer = 3.2115, .source = "exact"},
-                         {.name = "outer face", .unit = "m", .answer = 1.4291, .source = "exact"}},
-          .across = "cells across the outer diameter",
-          .sizes = {20, 28, 40, 56, 80, 112},
-          .methods = bulky_methods,
-          .run = tube,
-          .remark =
-              "The faces are stairs instead of circles, in a material that hardly changes its volume. The error "
-              "fluctuates with the way the lattice cuts the circles, and does not decrease in this range: the "
-              "lattice is at its worst on curved faces under pressure."};
+  return {
+      .name = "thick cylinder",
+      .title = "16. Thick cylinder",
+      .text =
+          "A tube of the same material in plane strain, with radii from 7 to 18.625 m, under an inner pressure "
+          "of 100 MPa. It is a full ring on the lattice, whose faces have steps. All particles of the inner half of "
+          "the wall are loaded, not only the two layers that `Pressure` needs, so the problem is no test of how the "
+          "layers of a curved face are chosen." +
+          on_faces,
+      .quantities = {{.name = "inner face", .unit = "m", .answer = 3.2115, .source = "exact"},
+                     {.name = "outer face", .unit = "m", .answer = 1.4291, .source = "exact"}},
+      .across = "cells across the outer diameter",
+      .sizes = {20, 28, 40, 56, 80, 112},
+      .methods = bulky_methods,
+      .run = tube,
+      .remark =
+          "The faces are stairs instead of circles, in a material that hardly changes its volume. The error "
+          "fluctuates with the way the lattice cuts the circles, and does not decrease in this range: the "
+          "lattice is at its worst on curved faces under pressure."};
 }
 
 Problem cooks_membrane() {
