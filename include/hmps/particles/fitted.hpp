@@ -29,7 +29,7 @@ struct FittedParticles {
   std::vector<Vector<S, D>> positions;  ///< m
   std::vector<S> volumes;               ///< of each particle in m3 (2D: m2); their sum is the volume of the body
   std::vector<int> layers;              ///< number of layers through the wall at each particle, 0 in bulk
-  std::vector<S> layer_spacings;        ///< distance of these layers in m
+  std::vector<S> layer_spacings;        ///< distance of these layers in m, l0 in bulk
   int iterations = 0;                   ///< number of iterations made
   /// The largest deviation in m of a particle of the outermost layer from its depth of half a layer.
   double largest_deviation = 0;

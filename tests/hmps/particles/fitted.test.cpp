@@ -207,6 +207,7 @@ TEST(FitParticles, DistinguishesTheSidesOfANarrowGap) {
       EXPECT_NEAR(static_cast<double>(fitted.size()), 1200, 6);
       for (std::size_t i = 0; i < fitted.size(); ++i) {
         EXPECT_NEAR(fitted.volumes[i], 1, 0.5);
+        EXPECT_TRUE(fitted.layers[i] > 0 || fitted.layer_spacings[i] == 1.0) << i;
         const V3& x = fitted.positions[i];
         if (std::min({x[0], x[1], 10 - x[0], 10 - x[1]}) < 2.8) continue;  // layers run around the rim
         EXPECT_EQ(fitted.layers[i], x[2] < shift ? 0 : 2) << x.transpose() << ", gap " << gap << ", shift " << shift;
