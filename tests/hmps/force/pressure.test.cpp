@@ -21,6 +21,7 @@
 #include "hmps/particles/fitted.hpp"
 #include "hmps/particles/lattice.hpp"
 #include "hmps/particles/support.hpp"
+#include "hmps/particles/surface_layers.hpp"
 #include "hmps/shapes/combine.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/terms/artificial.hpp"
@@ -304,6 +305,107 @@ TEST(Pressure, LeavesANetForceOnTheHoleOfAFittedRingAsStated) {
     EXPECT_NEAR(net.norm() / load, stated, 0.003) << layers;
     EXPECT_NEAR(radial / load, 1, 0.015) << layers;
   }
+}
+
+/// The work of a unit pressure in the bore of a tube or of a hollow sphere, relative to the exact one, when the bore
+/// widens uniformly, and its net force relative to the area of the bore.
+template <int D>
+struct Bore {
+  using P = hmps::Vector<double, D>;
+  static constexpr double inner = 5, outer = 10;
+  double work = 0, net = 0;
+
+  /// `choose(points, is_inner)` returns the loaded particles.
+  template <class Choose>
+  Bore(const std::vector<P>& points, double apart, const Choose& choose) {
+    const hmps::ParticleSet is_inner(points.size(), [&](std::size_t i) { return points[i].norm() < 7.5; });
+    const hmps::BondList<double, D> bonds(hmps::vectors(points), {.spacing = apart});
+    const hmps::Pressure<D> pressure(bonds, choose(points, is_inner));
+    const std::vector<hmps::Matrix<double, D>> F(points.size(), hmps::Matrix<double, D>::Identity());
+    std::vector<P> f(points.size(), P::Zero());
+    pressure.add(hmps::matrices(F), hmps::vectors(f), 1);
+    const double one = std::pow(apart, D), area = D == 2 ? 2 * std::numbers::pi * inner : 4 * std::numbers::pi * 25;
+    P sum = P::Zero();
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      sum += f[i] * one;
+      work += f[i].dot(points[i]) * one / (area * inner);
+    }
+    net = sum.norm() / area;
+  }
+  [[nodiscard]] static auto shape() {
+    return hmps::subtract(hmps::Ball<double, D>{P::Zero(), outer}, hmps::Ball<double, D>{P::Zero(), inner});
+  }
+  [[nodiscard]] static hmps::Box<double, D> box() { return {P::Constant(-11), P::Constant(11)}; }
+};
+
+// The sets of docs/choosing.md. Earlier, it did not say how to choose the layers of a curved face.
+TEST(Pressure, WidensABoreAsStated) {
+  const auto by_layers = [](double apart) {
+    return [apart](const auto& points, const hmps::ParticleSet& inner) {
+      return hmps::ParticleSet(points.size(), hmps::surface_layers(hmps::vectors(points), apart).two_outermost) & inner;
+    };
+  };
+  const auto half = [](const auto&, const hmps::ParticleSet& inner) { return inner; };
+  const auto by_radius = [](double apart) {
+    return [apart](const auto& points, const hmps::ParticleSet&) {
+      return hmps::ParticleSet(points.size(), [&](std::size_t i) { return points[i].norm() < 5 + 2 * apart; });
+    };
+  };
+  using Tube = Bore<2>;
+  for (const double apart : {1.0, 0.5, 0.25})
+    for (const Tube::P& from : {Tube::P(0.5, 0.5), Tube::P(0.13, 0.31), Tube::P(0.7, 0.1)}) {
+      const auto points = hmps::fill_lattice(Tube::shape(), Tube::box(), apart, Tube::P(apart * from));
+      const Tube layers(points, apart, by_layers(apart)), all(points, apart, half);
+      EXPECT_NEAR(layers.work, 1.025, 0.02) << apart << " " << from;
+      EXPECT_LT(layers.net, 0.011) << apart << " " << from;
+      EXPECT_NEAR(all.work, 1, apart > 0.6 ? 0.04 : 0.01) << apart << " " << from;
+      EXPECT_GT(Tube(points, apart, by_radius(apart)).work, layers.work + 0.005) << apart << " " << from;
+    }
+  const auto fitted = hmps::fit_particles(Tube::shape(), Tube::box(), 0.5);
+  const Tube layers(fitted.positions, 0.5, by_layers(0.5));
+  EXPECT_NEAR(layers.work, 1, 0.03);
+  EXPECT_LT(layers.net, 0.05);
+  using Sphere = Bore<3>;
+  const auto points = hmps::fill_lattice(Sphere::shape(), Sphere::box(), 1.0, Sphere::P(0.13, 0.31, 0.4));
+  EXPECT_NEAR(Sphere(points, 1, by_layers(1)).work, 1.055, 0.035);
+  EXPECT_NEAR(Sphere(points, 1, half).work, 1.03, 0.04);
+}
+
+// Earlier, a set of the outermost layer alone was accepted, and pressed about 1.5 times as much.
+TEST(Pressure, RefusesOneLayer) {
+  const auto words = [](const auto& bonds, const hmps::ParticleSet& loaded, const auto&... direction) {
+    try {
+      hmps::Pressure(bonds, loaded, direction...);
+    } catch (const hmps::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Scene s;
+  const auto top = [&](double depth) { return s.set([&](const Vector& X) { return X[2] > 0.005 - depth; }); };
+  const std::string said = words(s.bonds, top(l0));
+  EXPECT_NE(said.find("48 of 48 particles of the face"), std::string::npos) << said;
+  EXPECT_NE(said.find("load all of them"), std::string::npos) << said;
+  EXPECT_NE(words(s.bonds, top(l0), Vector(0, 0, 1)), "");
+  EXPECT_EQ(words(s.bonds, top(2 * l0), Vector(0, 0, 1)), "");
+  // A part of the face, and more layers than needed.
+  EXPECT_EQ(words(s.bonds, s.set([](const Vector& X) { return X[2] > 0.003 && X[0] < 0.002 && X[1] < 0.003; })), "");
+  EXPECT_EQ(words(s.bonds, top(3 * l0)), "");
+  // The area of a face lies in four layers of longer bonds.
+  const hmps::Box<double, 3> box{Vector::Zero(), Vector(0.011, 0.012, 0.009)};
+  const auto block = hmps::fill_lattice(box, box, l0, Vector(Vector::Constant(l0 / 2)));
+  const hmps::LatticeBonds<double, 3> bonds(hmps::vectors(block), {.spacing = l0, .radius_ratio = 2.6});
+  for (const int layers : {1, 2, 4}) {
+    const hmps::ParticleSet loaded(block.size(), [&](std::size_t i) { return block[i][2] > 0.009 - layers * l0; });
+    EXPECT_EQ(words(bonds, loaded).empty(), layers == 4) << layers;
+  }
+  // The outermost layer of a bore, in steps or fitted.
+  const auto outermost = [](const auto& points, const hmps::ParticleSet& inner) {
+    return hmps::ParticleSet(points.size(), hmps::surface_layers(hmps::vectors(points), 0.7).outermost) & inner;
+  };
+  using Tube = Bore<2>;
+  EXPECT_THROW(Tube(hmps::fill_lattice(Tube::shape(), Tube::box(), 0.7), 0.7, outermost), hmps::InputError);
+  EXPECT_THROW(Tube(hmps::fit_particles(Tube::shape(), Tube::box(), 0.7).positions, 0.7, outermost), hmps::InputError);
 }
 
 // The areas of edges and corners lie aslant: by them, bonds seemed to reach less far down, and walls passed whose areas
