@@ -252,10 +252,15 @@ class Pressure {
         double least = std::numeric_limits<double>::max();
         bonds.for_each_bond(std::size_t{i}, [&](std::size_t j, const auto& r0, auto) {
           const Vector<double, D> to = from + r0.template cast<double>();
-          if ((to - goal).norm() < least) least = (to - goal).norm(), i = j, way = to;
+          if ((to - goal).norm() >= least) return;
+          least = (to - goal).norm();
+          i = j;
+          way = to;
         });
       }
-      if (!loaded(i) && bare++ == 0) above = particles_[k], missing = i;
+      if (loaded(i) || bare++ > 0) continue;
+      above = particles_[k];
+      missing = i;
     }
     detail::require(static_cast<double>(bare) < 0.7 * static_cast<double>(of_face), "hmps: particle ", missing,
                     " below particle ", above, " of a face under pressure is not loaded, and so it is below ", bare,

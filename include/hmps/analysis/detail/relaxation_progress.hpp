@@ -85,8 +85,14 @@ class FreeMotion {
     const double force = own.force.norm(), moment = own.moment.norm();
     if (force > 0) moved_ += (own.centre - centre_).dot(own.force) / force;
     if (moment > 0) turned_ += turn(own).dot(own.moment) / moment;
-    if (!(std::abs(force - force_) <= same * force_)) force_ = force, moved_ = 0;
-    if (!(std::abs(moment - moment_) <= same * moment_)) moment_ = moment, turned_ = 0;
+    if (!(std::abs(force - force_) <= same * force_)) {
+      force_ = force;
+      moved_ = 0;
+    }
+    if (!(std::abs(moment - moment_) <= same * moment_)) {
+      moment_ = moment;
+      turned_ = 0;
+    }
     centre_ = own.centre;
     places_.resize(body_.size());
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = body_.place(i);

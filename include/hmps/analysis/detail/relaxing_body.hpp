@@ -285,7 +285,7 @@ class RelaxingBody {
   const E& execute_;
   double volume_;
   std::vector<char> follows_;
-  std::array<bool, D> free_;
+  std::array<bool, std::size_t{D}> free_;
   std::vector<double> shares_;  // V / l0^D; empty if that is 1
 };
 
