@@ -52,7 +52,7 @@ struct DeadLoad {
   template <class F, Executor E = Serial>
   void add(const VectorView<F, D>& f, const E& execute = {}) const {
     require_size(f, loaded.scene_size(), "force densities");
-    execute(loaded.size(), [&](std::size_t k) { f.add(loaded.indices()[k], density); });
+    detail::guarded(execute)(loaded.size(), [&](std::size_t k) { f.add(loaded.indices()[k], density); });
   }
 };
 

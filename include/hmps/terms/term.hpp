@@ -199,8 +199,7 @@ concept PairTerm = requires(const Term& term, const BondState<Lanes<K>, D>& bond
 };
 
 /// An external force on each particle: `term.body_force(particles)`, of a `BlockParameters`, is the force density in
-/// N/m3, `Vector<Lanes<K>, D>`. It changes the momentum of the body. Models: `Gravity`,
-/// `DeadLoad`.
+/// N/m3, `Vector<Lanes<K>, D>`. It changes the momentum of the body. Models: `Gravity`, `DeadLoad`.
 template <class Term, class K, int D>
 concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& particles) {
   { term.body_force(particles) } -> std::convertible_to<Vector<Lanes<K>, D>>;
