@@ -33,8 +33,8 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 /// For half of a symmetric body, `MirrorImages` is exact. With this function alone, let the held layer lie on the plane
 /// of symmetry and give the bonds volumes, half of l0^D there: half of a bar of five layers that is clamped at both ends
 /// then sags 1.5 % more than the whole bar, with whole volumes 2.6 % more, and 6.6 % less if the layer lies half a
-/// spacing before the plane. Strain and stress beside the plane are wrong by about a fifth at any spacing, since it has
-/// no bonds to the other half.
+/// spacing before the plane. Strain beside the plane is wrong by about a fifth at any spacing, since it has no bonds
+/// to the other half.
 template <class V, int D>
 void hold_component(const VectorView<V, D>& v, const ParticleSet& held, int c, double velocity = 0) {
   require_size(v, held.scene_size(), "velocities");

@@ -54,7 +54,7 @@ template <class T, int D>
                                                  double tolerance = 0.01) {
   const double found = nearest_spacing(points);
   if (found == 0 || std::abs(found / spacing - 1) < tolerance) return "";
-  return "; the distance of nearest neighbours is " + ask_for_spacing(found, spacing);
+  return "; the distance between nearest neighbours is " + ask_for_spacing(found, spacing);
 }
 
 /// Throws `InputError` if `spacing` (m), which was given to `what`, is not that of the particles at `points` (m) to

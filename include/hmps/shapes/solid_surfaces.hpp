@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -42,9 +44,8 @@ template <class S>
 ///
 ///     const auto tube = revolved_surface<double>({{4e-3, 0}, {6e-3, 0}, {6e-3, 0.02}, {4e-3, 0.02}}, 64);
 ///
-/// @param profile   corners (r, z) in m of the section, in either sense, without the first one again at the end; it
-/// must
-///                  not cross itself, and may touch the axis at corners and along edges
+/// @param profile   corners (r, z) in m of the section, in either sense, without the first one again at the end; the
+///                  profile must not cross itself, and may touch the axis at corners and along edges
 /// @param segments  of the circle, at least 3
 /// Throws `InputError` for a profile of fewer than three corners or without area, and for a corner that is not finite,
 /// has a negative radius or coincides with the one before it.
@@ -53,18 +54,25 @@ template <class S>
   const std::size_t n = profile.size();
   detail::require(n >= 3, "hmps: the profile of a solid of revolution has ", n, " corners; give three or more");
   detail::require(segments >= 3, "hmps: a solid of revolution has ", segments, " segments; give three or more");
-  double twice_area = 0;
+  double twice_area = 0, extent = 0;
+  for (const Vector<S, 2>& own : profile)
+    for (int c = 0; c < 2; ++c)
+      extent =
+          std::max(extent, std::abs(static_cast<double>(own[c]) - (c == 0 ? 0 : static_cast<double>(profile[0][1]))));
+  // sin(pi) is no exact zero: corners this close to the axis lie on it, and radii may be this far below zero.
+  const double on_axis = 100 * static_cast<double>(std::numeric_limits<S>::epsilon()) * extent;
   for (std::size_t k = 0; k < n; ++k) {
     const Vector<S, 2>&own = profile[k], &next = profile[(k + 1) % n];
-    detail::require(detail::all_finite(own) && !(own[0] < S(0)), "hmps: corner ", k,
+    detail::require(detail::all_finite(own) && !(static_cast<double>(own[0]) < -on_axis), "hmps: corner ", k,
                     " of the profile of a solid of revolution is (", own,
                     ") m; give finite numbers and a radius that is not negative");
     detail::require(own != next, "hmps: corners ", k, " and ", (k + 1) % n,
                     " of the profile of a solid of revolution coincide at (", own, ") m; give each corner once");
-    twice_area += static_cast<double>(own[0]) * static_cast<double>(next[1]) -
-                  static_cast<double>(next[0]) * static_cast<double>(own[1]);
+    const double z = static_cast<double>(profile[0][1]);
+    twice_area += static_cast<double>(own[0]) * (static_cast<double>(next[1]) - z) -
+                  static_cast<double>(next[0]) * (static_cast<double>(own[1]) - z);
   }
-  detail::require(detail::is_finite(twice_area) && twice_area != 0,
+  detail::require(std::abs(twice_area) > on_axis * extent && detail::is_finite(twice_area),
                   "hmps: the profile of a solid of revolution encloses ", twice_area / 2,
                   " m2; give the corners of a section in order");
 
@@ -72,19 +80,21 @@ template <class S>
   mesh.source = "the surface of a solid of revolution";
   const auto count = static_cast<std::size_t>(segments);
   const auto corner = [&](std::size_t k) -> const Vector<S, 2>& { return profile[twice_area > 0 ? k : n - 1 - k]; };
+  const auto off_axis = [&](std::size_t k) { return static_cast<double>(corner(k)[0]) > on_axis; };
   std::vector<std::size_t> first(n);  // vertex of each corner: one on the axis, one for each segment elsewhere
   for (std::size_t k = 0; k < n; ++k) {
     first[k] = mesh.vertices.size();
     const Vector<S, 2>& at = corner(k);
-    for (std::size_t s = 0; s < (at[0] > S(0) ? count : 1); ++s) {
+    const double radius = off_axis(k) ? static_cast<double>(at[0]) : 0;
+    for (std::size_t s = 0; s < (off_axis(k) ? count : 1); ++s) {
       const double angle = 2 * std::numbers::pi * static_cast<double>(s) / static_cast<double>(count);
-      mesh.vertices.emplace_back(static_cast<S>(static_cast<double>(at[0]) * std::cos(angle)),
-                                 static_cast<S>(static_cast<double>(at[0]) * std::sin(angle)), at[1]);
+      mesh.vertices.emplace_back(static_cast<S>(radius * std::cos(angle)), static_cast<S>(radius * std::sin(angle)),
+                                 at[1]);
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t next = (k + 1) % n;
-    const bool from_axis = !(corner(k)[0] > S(0)), to_axis = !(corner(next)[0] > S(0));
+    const bool from_axis = !off_axis(k), to_axis = !off_axis(next);
     for (std::size_t s = 0; s < count && !(from_axis && to_axis); ++s) {
       const auto vertex = [&](std::size_t c, std::size_t segment, bool on_axis) {
         return static_cast<Index>(first[c] + (on_axis ? 0 : segment % count));

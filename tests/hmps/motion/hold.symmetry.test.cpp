@@ -80,11 +80,11 @@ struct Stretched {
   double exact;          // lateral stretch
 };
 
-/// A bar of 5 x 5 particles, stretched by 1.2 between two planes of symmetry, each in a layer of half volumes, with
-/// `layers` layers between them.
-Stretched stretched_between_planes(int layers) {
+/// A bar of 5 x 5 particles, stretched by 1.2 between two planes of symmetry, each in a layer of half volumes,
+/// `spacings` apart.
+Stretched stretched_between_planes(int spacings) {
   constexpr double stretch = 1.2;
-  const double end = layers * l0;
+  const double end = spacings * l0;
   const Box<double, 3> bar{Point(0, 0, -l0 / 2), Point(5 * l0, 5 * l0, end + l0 / 2)};
   const std::vector<Point> reference = fill_lattice(bar, l0, Point(l0 / 2, l0 / 2, 0));
   const auto on_plane = [&](std::size_t i) { return reference[i][2] < l0 / 4 || reference[i][2] > end - l0 / 4; };

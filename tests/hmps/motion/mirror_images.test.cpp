@@ -19,6 +19,7 @@
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/gravity.hpp"
+#include "hmps/terms/mean_dilatation.hpp"
 #include "hmps/terms/viscous.hpp"
 #include "hmps/time/symplectic_euler.hpp"
 
@@ -39,12 +40,12 @@ std::vector<V3> bar(double first, double last) {
 }
 
 /// Runs a bar that falls between clamps at its ends, where |x| > `clamp`, after each drift with `finish(x, v)`.
-template <class Finish>
-std::vector<V3> fall(const std::vector<V3>& reference, double clamp, const Finish& finish) {
+template <class Finish, class... Terms>
+std::vector<V3> fall(const std::vector<V3>& reference, double clamp, const Finish& finish, const Terms&... terms) {
   const BondList<double, 3> bonds(vectors(reference), {.spacing = l0});
   const auto law = NeoHookean<>::from_young_poisson(20e3, 0.4);
   auto force = internal_force(bonds, elastic(law), artificial(law.shear_modulus()), viscous(rho, 1e-3),
-                              gravity(rho, V3(0, 0, -9.81)));
+                              gravity(rho, V3(0, 0, -9.81)), terms...);
   std::vector<V3> x = reference, v(x.size(), V3::Zero()), f = v;
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = 40 * V3(-reference[i][0], 0, std::abs(reference[i][0]));
   for (int step = 0; step < 150; ++step) {
@@ -60,12 +61,15 @@ std::vector<V3> fall(const std::vector<V3>& reference, double clamp, const Finis
 }
 
 /// The largest distance between the half of the bar and its images, and the same particles of the whole bar.
-double difference_from_the_whole(double first, double last) {
+template <class... Terms>
+double difference_from_the_whole(double first, double last, const Terms&... terms) {
   const auto whole = bar(-last, last), half = bar(first, last);
   const MirrorImages<3> images(vectors(half), l0, V3::Zero(), V3(-2, 0, 0));
   const double clamp = last - l0 / 2;
-  const auto expected = fall(whole, clamp, [](const auto&, const auto&) {});
-  const auto found = fall(half, clamp, [&](const auto& x, const auto& v) { images.place(x, v); });
+  const auto expected = fall(
+      whole, clamp, [](const auto&, const auto&) {}, terms...);
+  const auto found = fall(
+      half, clamp, [&](const auto& x, const auto& v) { images.place(x, v); }, terms...);
   double largest = 0, moved = 0;
   for (std::size_t i = 0; i < half.size(); ++i)
     for (std::size_t j = 0; j < whole.size(); ++j)
@@ -82,6 +86,13 @@ TEST(MirrorImages, HalfABarMovesAsTheWhole) {
   EXPECT_LT(difference_from_the_whole(-1.5 * l0, 9.5 * l0), 1e-9 * l0);  // the plane lies between two
 }
 
+// Its mean takes the images further away, and its scales the whole body.
+TEST(MirrorImages, NeedMoreLayersWithMeanDilatation) {
+  EXPECT_LT(difference_from_the_whole(-4 * l0, 10 * l0, mean_dilatation(1e5)), 5e-5 * l0);
+  EXPECT_LT(difference_from_the_whole(-6 * l0, 10 * l0, mean_dilatation<2>(1e5)), 5e-5 * l0);
+  EXPECT_GT(difference_from_the_whole(-2 * l0, 10 * l0, mean_dilatation(1e5)), 1e-3 * l0);
+}
+
 TEST(MirrorImages, AreTooFewWithinOneEffectiveRadius) { EXPECT_GT(difference_from_the_whole(-l0, 10 * l0), 1e-3 * l0); }
 
 // The recipe of the class for forces whose positions are read-only.
@@ -90,12 +101,13 @@ TEST(MirrorImages, HalfABarComesToRestAsTheWhole) {
   const auto sag = [&](const std::vector<V3>& reference, const auto& moves, const auto& place) {
     const BondList<double, 3> bonds(vectors(reference), {.spacing = l0});
     const auto law = NeoHookean<>::from_young_poisson(20e3, 0.4);
-    auto inner = internal_force(bonds, elastic(law), artificial(law.shear_modulus()), gravity(rho, V3(0, 0, -9.81)));
-    std::vector<V3> x = reference, v(x.size(), V3::Zero()), f = v, placed = reference;
+    auto inner = internal_force(bonds, elastic(law), artificial(law.shear_modulus()), viscous(rho, 1e-3),
+                                gravity(rho, V3(0, 0, -9.81)));
+    std::vector<V3> x = reference, v(x.size(), V3::Zero()), f = v, placed = reference, moving = v;
     const auto force = [&](const auto& at, const auto& velocities, const auto& forces) {
-      for (std::size_t i = 0; i < placed.size(); ++i) placed[i] = at[i];
-      place(vectors(placed));
-      inner(vectors(placed), velocities, forces);
+      for (std::size_t i = 0; i < placed.size(); ++i) placed[i] = at[i], moving[i] = velocities[i];
+      place(vectors(placed), vectors(moving));
+      inner(vectors(placed), vectors(moving), forces);
     };
     (void)relax(force, vectors(x), vectors(v), vectors(f), rho,
                 {.spacing = l0, .tolerance = 1e-6, .load = rho * 9.81 * 1e-7, .moves = moves});
@@ -106,12 +118,21 @@ TEST(MirrorImages, HalfABarComesToRestAsTheWhole) {
   const auto whole = bar(-last, last), half = bar(-2 * l0, last);
   const MirrorImages<3> images(vectors(half), l0, V3::Zero(), V3(-1, 0, 0));
   const double expected = sag(
-      whole, [&](std::size_t i) { return std::abs(whole[i][0]) < last - l0 / 2; }, [](const auto&) {});
+      whole, [&](std::size_t i) { return std::abs(whole[i][0]) < last - l0 / 2; }, [](const auto&, const auto&) {});
   const double found = sag(
       half, [&](std::size_t i) { return half[i][0] < last - l0 / 2 && !images.particles()(i); },
-      [&](const auto& x) { images.place(x); });
+      [&](const auto& x, const auto& v) { images.place(x, v); });
   EXPECT_GT(expected, 1e-3 * l0);
   EXPECT_NEAR(found / expected, 1, 1e-4);
+}
+
+// The images keep the places of the reference: a body at rest stays at rest.
+TEST(MirrorImages, OfAPlaneThatIsSlightlyOffExertNoForce) {
+  const auto X = bar(-2 * l0, 6 * l0);
+  const MirrorImages<3> images(vectors(X), l0, V3(4e-3 * l0, 0, 0), V3(-1, 1e-4, 0));
+  auto x = X;
+  images.place(vectors(x));
+  for (std::size_t i = 0; i < X.size(); ++i) EXPECT_LT((x[i] - X[i]).norm(), 1e-12 * l0) << i;
 }
 
 TEST(MirrorImages, AreMirroredAtAPlaneAtAnyAngle) {
@@ -138,7 +159,8 @@ TEST(MirrorImages, OfBodiesThatAreNotSymmetricAreErrors) {
   EXPECT_TRUE(has(make(V3(-1, 0, 0), V3(-1, 0, 0)), "no particle lies behind the plane"));
   EXPECT_TRUE(has(make(V3::Zero(), V3::Zero()), "nonzero length"));
   EXPECT_TRUE(has(make(V3(std::numeric_limits<double>::quiet_NaN(), 0, 0), V3(-1, 0, 0)), "finite"));
-  EXPECT_TRUE(has(make(V3::Zero(), V3(-1, 0, 0), 0), "spacing of the mirrored particles"));
+  for (const double spacing : {0.0, 1e-3 * l0, 1e3 * l0})
+    EXPECT_TRUE(has(make(V3::Zero(), V3(-1, 0, 0), spacing), "spacing of mirror images")) << spacing;
   const MirrorImages<3> images(vectors(X), l0, V3::Zero(), V3(-1, 0, 0));
   std::vector<V3> less(X.size() - 1);
   EXPECT_THROW(images.place(vectors(less)), InputError);

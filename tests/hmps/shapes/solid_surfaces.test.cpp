@@ -48,8 +48,13 @@ TEST(SolidSurfaces, TubesConesAndBallsHaveTheVolumesOfTheirFormulas) {
               1e-12);
   std::vector<V2> half_circle;
   for (int k = 0; k <= 90; ++k) half_circle.emplace_back(std::sin(pi * k / 90), -std::cos(pi * k / 90));
-  half_circle.front()[0] = half_circle.back()[0] = 0;
-  EXPECT_NEAR(volume_of(revolved_surface(half_circle, 180)) / (4 * pi / 3), 1, 2e-3);
+  const auto ball = revolved_surface(half_circle, 180);
+  EXPECT_NEAR(volume_of(ball) / (4 * pi / 3), 1, 2e-3);
+  EXPECT_EQ(ball.vertices.size(), 2 + 89u * 180);  // the poles lie on the axis, although sin(pi) is not zero
+  std::vector<Vector<float, 2>> in_float;
+  for (const V2& at : half_circle) in_float.push_back(at.cast<float>());
+  in_float.back()[0] = -8.7e-8f;  // sin(pi) in float
+  EXPECT_NEAR(volume_of(revolved_surface(in_float, 180)) / (4 * pi / 3), 1, 2e-3);
 }
 
 TEST(SolidSurfaces, BoreIsAPatchWhoseNormalsPointToTheAxis) {
@@ -68,6 +73,7 @@ TEST(SolidSurfaces, SolidsThatDoNotExistAreErrors) {
   EXPECT_THROW((void)revolved_surface<double>({{-1, 0}, {2, 0}, {2, 1}}, 8), InputError);
   EXPECT_THROW((void)revolved_surface<double>({{1, 0}, {nan, 0}, {2, 1}}, 8), InputError);
   EXPECT_THROW((void)revolved_surface<double>({{1, 0}, {2, 0}, {3, 0}}, 8), InputError);
+  EXPECT_THROW((void)revolved_surface<double>({{0.1, 100.1}, {0.2, 100.2}, {0.7, 100.7}}, 8), InputError);
   EXPECT_THROW((void)revolved_surface<double>({{1, 0}, {2, 0}, {2, 1}, {1, 0}}, 8), InputError);
 }
 
