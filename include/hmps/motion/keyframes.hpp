@@ -53,7 +53,11 @@ class Keyframes {
       if (k > 0) require_rates(k);
     }
     for (std::size_t k = 1; k + 1 < keys_.size(); ++k)
-      for (int c = 0; c < N; ++c) at(slopes_[k], c) = slope(k, c);
+      for (int c = 0; c < N; ++c) {
+        at(slopes_[k], c) = slope(k, c);
+        detail::require(detail::is_finite(at(slopes_[k], c)), "hmps: the rate of component ", c, " at keyframe ", k,
+                        " at ", keys_[k].time, " s exceeds the range of a double: check times and values");
+      }
   }
   Keyframes(std::initializer_list<Keyframe<N>> keys) : Keyframes(std::vector<Keyframe<N>>(keys)) {}
 

@@ -64,7 +64,8 @@ class VtuSeries {
     std::filesystem::create_directories(path_.parent_path(), problem);
     detail::require(!problem, "hmps: cannot make the folder ", path_.parent_path().string(), ": ", problem.message(),
                     "; check its permissions");
-    detail::require(detail::name_fits(path_.parent_path() / file_of(0)), "hmps: the name of ", path_.string(),
+    constexpr std::size_t many = 999'999'999;  // frames, whose number has the most digits
+    detail::require(detail::name_fits(path_.parent_path() / file_of(many)), "hmps: the name of ", path_.string(),
                     " is too long for the file system: its frames would be called ", file_of(0),
                     " and so on, and .part is added while they are written; give a shorter name");
     replace_file(path_, pvd_text(frames_));
@@ -72,9 +73,8 @@ class VtuSeries {
 
   /// Writes a frame, as `write_vtu` does, at `time` in s, and adds it to the collection. Throws `InputError` as that
   /// does, for settings with another time, and for a time that is not later than that of the previous frame: ParaView
-  /// would show only one of the two.
-  /// Throws `StateError` if the collection is no longer as this series left it, for example because a second series
-  /// writes to the same path.
+  /// would show only one of the two. Throws `StateError` if the collection is no longer as this series left it, for
+  /// example because a second series writes to the same path.
   template <class T, int D>
   void add(double time, const VectorView<T, D>& x, const std::vector<VtkField>& fields = {},
            VtuSettings settings = {}) {

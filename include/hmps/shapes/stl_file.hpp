@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cctype>
@@ -99,15 +100,19 @@ class AsciiStlParser {
   }
 
  private:
-  /// Removes and returns the next word; empty at the end.
-  std::string_view next() {
+  /// Removes and returns the next word of `text`; empty at the end. Adds the line ends before it to `line`.
+  static std::string_view take_from(std::string_view& text, std::size_t& line) {
     std::size_t from = 0;
-    for (; from < text_.size() && is_blank(text_[from]); ++from)
-      if (text_[from] == '\n') ++line_;
+    for (; from < text.size() && is_blank(text[from]); ++from)
+      if (text[from] == '\n') ++line;
     std::size_t to = from;
-    while (to < text_.size() && !is_blank(text_[to])) ++to;
-    const std::string_view word = text_.substr(from, to - from);
-    text_.remove_prefix(to);
+    while (to < text.size() && !is_blank(text[to])) ++to;
+    const std::string_view word = text.substr(from, to - from);
+    text.remove_prefix(to);
+    return word;
+  }
+  std::string_view next() {
+    const std::string_view word = take_from(text_, line_);
     if (!word.empty()) place_.line = line_;
     return word;
   }
@@ -158,35 +163,41 @@ class AsciiStlParser {
     ++corner_;
   }
 
-  /// Normals are not used, and some programs write NaN in them.
+  /// Normals are not used, and some programs write NaN or commas in them.
   void skip_normal() {
-    const std::size_t line = place_.line;
-    for (int c = 0; c < 3; ++c)
-      if (ends_numbers(next())) {
-        place_.line = line;
-        place_.fail("a normal has only ", c, " components");
-      }
+    std::string_view rest = text_;
+    std::size_t line = line_;
+    while (!ends_numbers(take_from(rest, line))) {
+      text_ = rest;
+      line_ = line;
+    }
   }
 
   void skip_name() {
-    const std::string_view line = text_.substr(0, text_.find('\n'));
-    std::string_view rest = line;
+    const std::size_t end = std::min(text_.find('\n'), text_.size());
+    std::string_view rest = text_.substr(0, end);
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
-      if (lower_case(word) != "facet" || !continues_facet(rest)) continue;
-      text_.remove_prefix(static_cast<std::size_t>(word.data() - text_.data()));
+      const auto at = static_cast<std::size_t>(word.data() - text_.data());
+      if (lower_case(word) != "facet" || !continues_facet(text_.substr(at + word.size()))) continue;
+      text_.remove_prefix(at);
       return;
     }
-    text_.remove_prefix(line.size());
+    text_.remove_prefix(end);
   }
 
-  /// Whether `text` goes on as a facet, and not as a name with the word "facet" in it.
+  /// Whether `text` goes on as a facet up to its first vertex, and not as a name with the word "facet" in it.
   [[nodiscard]] static bool continues_facet(std::string_view text) {
-    const std::string keyword = lower_case(take_word(text));
-    const std::string_view next = take_word(text);
-    if (keyword == "outer") return lower_case(next) == "loop";
+    std::size_t line = 0;
+    const auto word = [&] { return lower_case(take_from(text, line)); };
+    std::string keyword = word();
+    if (keyword == "normal") {
+      for (int c = 0; c < 3; ++c) (void)word();
+      keyword = word();
+    }
+    if (keyword == "outer") return word() == "loop" && word() == "vertex";
     double number{};
-    return (keyword == "normal" || keyword == "vertex") &&
-           (parse_number(next, number) || next.find_first_of("+-.0123456789") == 0);
+    const std::string first = word();
+    return keyword == "vertex" && parse_number(std::string_view(first), number);
   }
 
   void require_facet(const std::string& keyword) const {
@@ -197,8 +208,7 @@ class AsciiStlParser {
     double number{};
     if (parse_number(std::string_view(word), number))
       place_.fail("the number '", printable(word),
-                  "' is one too many: a vertex has three coordinates, and a normal three components; write decimal "
-                  "points, not commas");
+                  "' does not belong there: a vertex has three coordinates, with points as decimal marks");
     place_.fail("'", printable(word), "' is not a keyword of an STL file");
   }
 

@@ -111,6 +111,8 @@ TEST(Keyframes, RefusesRatesBeyondTheRangeOfADouble) {
     EXPECT_NE(text.find("to keyframe 2 at"), std::string::npos) << text;
     EXPECT_NE(text.find("exceed the range of a double"), std::string::npos) << text;
   }
+  const std::string rate = message_of([] { Track{{0.0, 0.0}, {1e-160, 1e10}, {2e-160, 2e10}}; });
+  EXPECT_NE(rate.find("the rate of component 0 at keyframe 1"), std::string::npos) << rate;
   const std::string text = message_of([] { Keyframes<2>{{0.0, {0.0, -1e308}}, {1.0, {0.0, 1e308}}}; });
   EXPECT_NE(text.find("component 1 changes from -1e+308 to 1e+308"), std::string::npos) << text;
 

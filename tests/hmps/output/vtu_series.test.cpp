@@ -170,11 +170,11 @@ TEST(VtuSeries, RefusesANameThatIsTooLongForItsFrames) {
   std::size_t most = 0;  // of the file system
   const auto file = [&](std::size_t length) { return folder.path() / std::string(length, 'b'); };
   for (std::size_t length = 100; length < 1000 && detail::name_fits(file(length)); ++length) most = length + 5;
-  ASSERT_LT(most, 1000U) << "this file system takes any name";
-  series(most - 15).add(0, vectors(points));
-  const std::string error = message_of([&] { (void)series(most - 14); });
+  if (most >= 1000) GTEST_SKIP() << "this file system takes any name";
+  series(most - 19).add(0, vectors(points));
+  const std::string error = message_of([&] { (void)series(most - 18); });
   EXPECT_NE(error.find("_00000.vtu and so on"), std::string::npos) << error;
-  EXPECT_FALSE(std::filesystem::exists(file(most - 14).concat(".pvd")));
+  EXPECT_FALSE(std::filesystem::exists(file(most - 18).concat(".pvd")));
 }
 
 TEST(VtuSeriesMisuse, IsRefused) {

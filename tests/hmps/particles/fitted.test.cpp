@@ -312,7 +312,7 @@ TEST(FitParticles, AdvisesASpacingThatSucceedsAtOnceWhereNoParticleHasSupport) {
     EXPECT_LT(at, advice) << text;
     if (advice == std::string::npos) return text;
     const double spacing = std::stod(text.substr(advice + 8));
-    EXPECT_NEAR(spacing, std::min(width, height) / 2, 0.03);
+    EXPECT_NEAR(spacing, std::min(width, height) / 2.3, 0.03);
     EXPECT_GT(fit_particles(shape, box, spacing, settings).size(), 20U) << text;
     return text;
   };
@@ -322,6 +322,12 @@ TEST(FitParticles, AdvisesASpacingThatSucceedsAtOnceWhereNoParticleHasSupport) {
   const std::string sheet = advised(0.6, 4, 1, {.least_layers = 1, .iterations = 20});
   EXPECT_NE(sheet.find("a single layer, which least_layers = 1 allows"), std::string::npos) << sheet;
   EXPECT_NE(sheet.find("least_support = 0"), std::string::npos) << sheet;
+  // Half of the diameter of a ball is too much.
+  const hmps::Ball<double, 3> ball{.radius = 0.6};
+  const Box<double, 3> around{V3::Constant(-2), V3::Constant(2)};
+  const std::string text = message_of([&] { (void)fit_particles(ball, around, 1.0, {.iterations = 20}); });
+  const double spacing = std::stod(text.substr(text.find("at most ") + 8));
+  EXPECT_NO_THROW((void)fit_particles(ball, around, spacing, {.iterations = 20})) << text;
 }
 
 // Faces that meet at more than 60 degrees, as where a flaring body is cut, are not the two sides of a wall.

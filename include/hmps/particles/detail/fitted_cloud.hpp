@@ -148,8 +148,8 @@ class FittedCloud {
 
   [[noreturn]] void fail_of_weakness() const {
     const double l0 = field_.spacing();
-    // Two layers have support, in a needle too.
-    double finer = std::min(thickest() / 2, 0.9 * l0);
+    // Two layers have support, in a needle too. At half of its diameter, a ball would get a few particles without.
+    double finer = std::min(thickest() / 2.3, 0.9 * l0);
     bool single = true;
     for (const Particle& p : particles_) {
       finer = std::min(finer, p.layers.thickness / p.layers.count);
