@@ -31,8 +31,8 @@ void hold(const VectorView<V, D>& v, const ParticleSet& held) {
 /// exist, a velocity that is not finite and a set made for another number of particles.
 ///
 /// For half of a symmetric body, `MirrorImages` is exact. With this function alone, let the held layer lie on the plane
-/// of symmetry and give the bonds volumes, half of l0^D there: half of a bar of five layers that is clamped at both ends
-/// then sags 1.5 % more than the whole bar, with whole volumes 2.6 % more, and 6.6 % less if the layer lies half a
+/// of symmetry and give the bonds volumes, half of l0^D there: half of a bar of five layers that is clamped at both
+/// ends then sags 1.5 % more than the whole bar, with whole volumes 2.6 % more, and 6.6 % less if the layer lies half a
 /// spacing before the plane. Strain beside the plane is wrong by about a fifth at any spacing, since it has no bonds
 /// to the other half.
 template <class V, int D>
