@@ -96,8 +96,8 @@ template <class S>
     const std::size_t next = (k + 1) % n;
     const bool from_axis = !off_axis(k), to_axis = !off_axis(next);
     for (std::size_t s = 0; s < count && !(from_axis && to_axis); ++s) {
-      const auto vertex = [&](std::size_t c, std::size_t segment, bool on_axis) {
-        return static_cast<Index>(first[c] + (on_axis ? 0 : segment % count));
+      const auto vertex = [&](std::size_t c, std::size_t segment, bool single) {
+        return static_cast<Index>(first[c] + (single ? 0 : segment % count));
       };
       const Index a = vertex(k, s, from_axis), b = vertex(k, s + 1, from_axis);
       const Index c = vertex(next, s + 1, to_axis), d = vertex(next, s, to_axis);
