@@ -44,16 +44,18 @@ namespace hmps::inline HMPS_ABI {
 ///               `internal_force`, or a lambda that adds several forces and the load
 /// @param x      positions in m, changed; those of particles that do not move are kept
 /// @param v      velocities in m/s, zero at the end
-/// @param f      force densities; at the end those at rest, which for particles that do not move are the reactions
+/// @param f      force densities; at the end those at rest, which for particles that do not move are minus
+///               the reactions of their supports
 /// @param rho    density in kg/m3, a number or a `ScalarView`
 /// The result does not depend on the executor if the force does not. Positions in float may be too coarse for a small
 /// tolerance, and forces of bonds in float as well: a bar of `LatticeBonds<float, 3>` that sags by 23 mm stays at a
 /// residual of 0.005. Keep both in double. Throws `InputError` for bad settings, an empty function as force, a spacing
 /// far from that of the particles, views of different sizes, values that are not finite, and a force that never writes
 /// anything. Throws `StateError` if a force is not finite, if the unbalanced forces no longer decrease, after
-/// `max_iterations`, and if nothing holds the body: once a net force has moved it by half its size, or a net moment has
-/// turned it by a radian, without having changed in size. The message then names both: hold some particles, or subtract
-/// the mean force, and the moment, as for a free body under `Pressure`. The state is the last one reached.
+/// `max_iterations`, and if nothing holds the body: once a net force has moved it by three times its size, or a net
+/// moment has turned it by a whole turn, without having changed in size. The message then names both: hold some
+/// particles, or subtract the mean force, and the moment, as for a free body under `Pressure`. The state is the last
+/// one reached.
 template <class Force, class X, class V, class F, int D, PerParticle Rho, Executor E = Serial>
 Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                  const Rho& rho, const RelaxationSettings& settings, const E& execute = {}) {

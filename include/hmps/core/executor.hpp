@@ -28,8 +28,8 @@ using AnyExecutor = std::function<void(std::size_t, const std::function<void(std
 ///
 /// The body that an executor of your own gets from the library never throws, so an executor needs no handler, and may
 /// consist of threads or of a plain `#pragma omp parallel for`. If an index fails, whether in the library or in a
-/// callable of yours such as a shape, a law or a term, the other indices still run, and the library throws the
-/// exception of the lowest index when the executor returns. `Serial` stops at the first failure. `OpenMP` and `OneTBB`
+/// callable of yours such as a shape, a law or a term, the others may or may not still run, and the library throws the
+/// exception of the lowest index when the executor returns. `OpenMP` and `OneTBB`
 /// also pass on exceptions of bodies of your own.
 template <class E>
 concept Executor = requires(const E& execute, std::size_t n, detail::AnyBody body) {

@@ -48,15 +48,15 @@ namespace hmps::inline HMPS_ABI {
 ///     const ParticleSet inner(X.size(), [&](std::size_t i) { return X[i].norm() < (Ri + Ro) / 2; });
 ///     const Pressure pressure(bonds, ParticleSet(X.size(), layers.two_outermost) & inner);
 ///
-/// In the bore of a tube in the plane or of a hollow sphere, of radius Ri = 5 to 20 l0 and half as wide as the body, a
-/// pressure on the undeformed body then does 1.01 to 1.04 (sphere 1.02 to 1.09) times the exact work when the bore
-/// widens, if the particles are those of a lattice, and 0.97 to 1.03 times if they are fitted. With the particles up to
-/// Ri + 2 l0 it is 1.03 to 1.12 times on the lattice, because some particles below the steps of the face are missing.
-/// On a lattice all particles of `inner` may be loaded, because b_i vanishes inside: 0.99 to 1.04 (sphere 0.99
-/// to 1.07), and from Ri = 10 l0 on 0.99 to 1.01. Not so with fitted particles (0.80). docs/choosing.md has the table.
+/// In the bore of a ring in the plane of radius Ri = 5 l0, half as wide as the body, a pressure on the undeformed body
+/// then does 0.97 to 1.05 times the exact work when the bore widens, over 100 positions of a lattice, and 0.92 to 1.04
+/// times over ten fits; from Ri = 10 l0 on 1.00 to 1.03, and 0.95 to 1.03 if fitted. In hollow spheres it is up to 1.09
+/// on a lattice. With the particles up to Ri + 2 l0 it is up to 1.12 on a lattice, because some particles below the
+/// steps of the face are missing. On a lattice, but not with fitted particles, all particles of `inner` may be loaded,
+/// because b_i vanishes inside. docs/choosing.md has a table.
 ///
-/// The forces in a closed cavity sum to zero only approximately. With the two layers, the net force is at most 1.1, 0.5
-/// and 0.1 % of p A in tubes of Ri = 5, 10 and 20 l0 on a lattice, 0.5 % in spheres on a lattice and 0.9 % in fitted
+/// The forces in a closed cavity sum to zero only approximately. With the two layers, the net force is at most 1.4, 0.8
+/// and 0.3 % of p A in tubes of Ri = 5, 10 and 20 l0 on a lattice, 0.5 % in spheres on a lattice and 0.9 % in fitted
 /// ones, but 1 to 5 % in fitted rings in the plane, because b_i does not quite vanish inside an irregular cloud. Under
 /// such a force `relax` finds no rest for a free body: subtract the mean force, or use `PatchPressure`, whose net force
 /// is zero.
@@ -266,7 +266,8 @@ class Pressure {
                     " below particle ", above, " of a face under pressure is not loaded, and so it is below ", bare,
                     " of ", of_face, " particles of the face: its area lies in its ", layers,
                     " outermost layers, and the outermost alone has about 1.5 times that area; load all of them, for "
-                    "two layers the `two_outermost` of surface_layers");
+                    "two layers the `two_outermost` of surface_layers, and give the direction of a face that is "
+                    "loaded along an edge");
   }
 
   std::size_t size_;

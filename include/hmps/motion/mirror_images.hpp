@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -30,13 +31,14 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// Fill the body up to two effective radii behind the plane, which are two layers of a lattice along it: F of the
 /// images next to the plane must be right as well. With `mean_dilatation` take four, and with `mean_dilatation<2>`, so
-/// with `thin_wall_stabiliser`, six; its scales depend on the whole body, so that the halves then agree to 1e-5 l0
+/// with `thin_wall_stabiliser`, six; its scales depend on the whole body, so that the halves then agree to 5e-5 l0
 /// instead of to rounding (the tests `MirrorImages`). The plane may pass through a layer of particles or between two.
 /// Fitted particles have no symmetric order: fit the half alone, and append its mirrored particles and their volumes.
 ///
 /// Count energies, loads and masses of the particles outside `particles()` only, and half of those on the plane. In
-/// `relax` and `stable_step`, positions and velocities are read-only: leave the images out by `moves`, let the force be
-/// evaluated on copies of both in which it places the images, and afterwards call `place(x, v)`.
+/// `relax` and `stable_step`, positions and velocities are read-only: leave the images out by `moves`, give `relax` its
+/// `load`, let the force be evaluated on copies of both in which it places the images, and afterwards call
+/// `place(x, v)`.
 template <int D>
 class MirrorImages {
  public:
@@ -45,8 +47,9 @@ class MirrorImages {
   /// @param point      a point of the plane in m
   /// @param normal     of the plane, towards the images, of any nonzero length
   /// Throws `InputError` for a spacing that is far from that of the particles, a normal that is zero or not finite, a
-  /// plane without particles behind it, and a particle behind the plane that is no image: within a hundredth of a
-  /// spacing of its mirrored position there must be one particle.
+  /// plane without particles behind it, a particle behind the plane that is no image (within a hundredth of a spacing
+  /// of its mirrored position there must be one particle), images that reach no further than 1.25 spacings, and
+  /// particles without an image where others at their distance from the plane have one.
   template <class T>
   MirrorImages(const VectorView<T, D>& reference, double spacing, const Vector<double, D>& point,
                const Vector<double, D>& normal)
@@ -84,6 +87,7 @@ class MirrorImages {
     }
     detail::require(!images.empty(), "hmps: no particle lies behind the plane of symmetry through (", point,
                     ") m; let the normal point towards the images, and fill the body up to two effective radii beyond");
+    require_complete(reference, point, spacing);
     images_ = ParticleSet(reference.size(), images);
     on_plane_ = ParticleSet(reference.size(), on_plane);
   }
@@ -120,6 +124,21 @@ class MirrorImages {
   }
 
  private:
+  template <class T>
+  void require_complete(const VectorView<T, D>& reference, const Vector<double, D>& point, double spacing) const {
+    const auto before = [&](std::size_t i) { return (point - reference[i].template cast<double>()).dot(normal_); };
+    const ParticleSet originals(reference.size(), original_);
+    double reach = 0;
+    for (const Index i : original_) reach = std::max(reach, before(i));
+    detail::require(reach > 1.25 * spacing, "hmps: the images reach only ", reach,
+                    " m behind the plane of symmetry, less than two layers; fill the body up to two effective radii "
+                    "behind it");
+    for (std::size_t i = 0; i < reference.size(); ++i)
+      detail::require(originals(i) || before(i) < 0.01 * spacing || before(i) > reach - 0.01 * spacing,
+                      "hmps: particle ", i, " at (", reference[i], ") m lies ", before(i),
+                      " m in front of the plane of symmetry and has no image, but others that lie up to ", reach,
+                      " m in front of it have one; fill the body behind the plane as in front of it");
+  }
   [[nodiscard]] Vector<double, D> reflected(const Vector<double, D>& vector) const {
     return vector - 2 * vector.dot(normal_) * normal_;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// expect: const
+// expect: assign
 #include <vector>
 
 #include "hmps/core/view.hpp"
 
 int main() {
   std::vector<Eigen::Vector3d> values(3);
-  const auto f = hmps::vectors(values);
+  auto f = hmps::vectors(values);
   f[2][2] = 5;
 }

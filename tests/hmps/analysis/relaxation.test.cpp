@@ -594,12 +594,12 @@ TEST(Relax, ReportsTheNetForceOnABodyThatNothingHolds) {
   };
   RelaxationSettings settings{.spacing = l0, .load = 3 * pull * body.volume};
   std::string words = words_of([&] { (void)relax(pulled, body.x(), body.v(), body.f(), density, settings); });
-  EXPECT_TRUE(has(words, "nothing holds it")) << words;
+  EXPECT_TRUE(has(words, "nothing has held it so far")) << words;
   EXPECT_TRUE(has(words, "no particle is held against the net force of (")) << words;
   EXPECT_TRUE(has(words, " 0.0012)")) << words;
   EXPECT_TRUE(has(words, "subtract the mean force")) << words;
-  // The body has moved by no more than its size.
-  EXPECT_LT(body.position[0][1], 6 * l0);
+  // The body has moved by little more than three times its size.
+  EXPECT_LT(body.position[0][1], 4 * 6.4 * l0);
   // With too few iterations to see it, the message names the force, too.
   body.position = body.reference;
   settings.max_iterations = 50;
@@ -648,7 +648,7 @@ struct Turned {
 // Earlier, the bar turned until its ends had moved by ten times its length, and the message asked about held particles.
 TEST(Relax, ReportsTheNetMomentOnABodyThatNothingHolds) {
   const Turned spinning(true);
-  EXPECT_TRUE(has(spinning.words, "nothing holds it")) << spinning.words;
+  EXPECT_TRUE(has(spinning.words, "nothing has held it so far")) << spinning.words;
   EXPECT_TRUE(has(spinning.words, "and the net moment of (-2.6")) << spinning.words;  // 6 * push * volume * 11 l0 / 2
   EXPECT_TRUE(has(spinning.words, "while the body turns")) << spinning.words;
   // Dead loads turn the bar only until it lies along them.
@@ -660,13 +660,14 @@ TEST(Relax, ReportsTheNetMomentOnABodyThatNothingHolds) {
   EXPECT_GT(along[0], 0.99 * along.norm());
 }
 
-// A force may hold a body of which every particle moves: the search goes on while it falls on a floor.
+// A force may hold a body of which every particle moves: the search goes on while it falls on a floor, from twice its
+// size.
 TEST(Relax, LetsAFreeBodyFallOnAFloor) {
   Standing<double, 2> body(column<2>(3, 6));
   body.pull = Vector<double, 2>(0, -1);
   auto internal = internal_force(body.bonds, elastic(linear), artificial(young));
   auto weighed = body.with_weight(internal);
-  const double floor = -2 * l0, stiffness = young / (l0 * l0);
+  const double floor = -12 * l0, stiffness = young / (l0 * l0);
   const auto force = [&](const auto& x, const auto& v, const auto& f) {
     weighed(x, v, f);
     for (std::size_t i = 0; i < x.size(); ++i)

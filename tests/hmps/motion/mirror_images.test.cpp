@@ -93,7 +93,21 @@ TEST(MirrorImages, NeedMoreLayersWithMeanDilatation) {
   EXPECT_GT(difference_from_the_whole(-2 * l0, 10 * l0, mean_dilatation(1e5)), 1e-3 * l0);
 }
 
-TEST(MirrorImages, AreTooFewWithinOneEffectiveRadius) { EXPECT_GT(difference_from_the_whole(-l0, 10 * l0), 1e-3 * l0); }
+// With one layer of images, half a bar would differ from the whole by more than 1e-3 l0.
+TEST(MirrorImages, ThatAreMissingAreErrors) {
+  const auto error = [](const std::vector<V3>& X) {
+    return error_of([&] { (void)MirrorImages<3>(vectors(X), l0, V3::Zero(), V3(-1, 0, 0)); });
+  };
+  EXPECT_TRUE(has(error(bar(-l0, 6 * l0)), "the images reach only 0.001 m behind the plane"));
+  EXPECT_TRUE(has(error(bar(-0.5 * l0, 5.5 * l0)), "the images reach only 0.0005 m behind the plane"));
+  auto X = bar(-2 * l0, 6 * l0);
+  for (std::size_t i = 0; i < X.size(); ++i)
+    if (X[i][0] < -0.5 * l0 && X[i][0] > -1.5 * l0) {
+      X.erase(X.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    }
+  EXPECT_TRUE(has(error(X), "has no image"));
+}
 
 // The recipe of the class for forces whose positions are read-only.
 TEST(MirrorImages, HalfABarComesToRestAsTheWhole) {

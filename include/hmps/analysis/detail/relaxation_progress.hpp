@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,10 @@ class Stalling {
 };
 
 /// Tells whether a force or a moment moves a body of which no particle is held, and nothing resists: whether the net
-/// force keeps its size while the body moves along it by half its own, or the net moment while the body turns with it
-/// by a radian. Pressures turn with the body, so directions do not count. A spring that holds the body changes them
-/// before, unless it lets the body move by ten of its sizes, and so does a wall that the body reaches. Dead loads that
-/// turn a body keep the size of their moment to 5 % over 0.75 radians at most.
+/// force keeps its size while the body moves along it by three times its own, or the net moment while the body turns
+/// with it by a whole turn. Pressures turn with the body, so directions do not count. A spring that holds the body
+/// changes them before, unless it lets the body move by ten of its sizes, and so does a wall that the body reaches.
+/// Dead loads that turn a body keep the size of their moment to 5 % over 0.75 radians at most.
 template <class Body, int D>
 class FreeMotion {
  public:
@@ -57,8 +58,9 @@ class FreeMotion {
     next_ = now.iterations + 100;  // the sums take as long as a part of a step
     const Resultant<D> own = body_.resultant();
     follow(own);
-    const bool flies = moved_ > extent_ / 2 && force_matters(own, now);
-    if (flies || (turned_ > 1 && moment_matters(own, now))) throw_free(now, own, flies ? "moves" : "turns");
+    const bool flies = moved_ > 3 * extent_ && force_matters(own, now);
+    if (flies || (turned_ > 2 * std::numbers::pi && moment_matters(own, now)))
+      throw_free(now, own, flies ? "moves" : "turns");
   }
 
   /// What the error of a search that fails says about the net force and moment; empty if a body may come to rest under
@@ -113,11 +115,11 @@ class FreeMotion {
                    own.moment, ") N m about the centre of the body");
   }
   [[noreturn]] static void throw_free(const Relaxation& now, const Resultant<D>& own, const char* does) {
-    throw StateError(message(
-        "hmps: after ", now.iterations, " iterations of relax, ", against(own),
-        ", whose size stays the same while the body ", does,
-        ": nothing holds it; hold some particles by `moves`, or subtract the mean force, and the moment, from the "
-        "forces; a body that is to meet another must start closer to it"));
+    throw StateError(message("hmps: after ", now.iterations, " iterations of relax, ", against(own),
+                             ", whose size stays the same while the body ", does,
+                             ": nothing has held it so far; hold some particles by `moves`, or subtract the mean "
+                             "force, and the moment, from the "
+                             "forces; a body that is to meet another must start closer to it"));
   }
 
   const Body& body_;
