@@ -53,7 +53,7 @@ int main(int argc, char** argv) try {
   std::printf("The middle of the end sinks by %.1f +- %.1f mm; finite elements: 23.4 mm.\n", 1e3 * found.mean,
               1e3 * found.error);
   // The error bar does not include the errors that all positions of the lattice have in common: see the tutorial.
-  return std::abs(found.mean - 23.4e-3) < found.error + 0.1 * 23.4e-3 ? 0 : 1;
+  return std::fflush(stdout) == 0 && std::abs(found.mean - 23.4e-3) < found.error + 0.1 * 23.4e-3 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

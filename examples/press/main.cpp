@@ -100,6 +100,7 @@ int main(int argc, char** argv) try {
   };
   const double particles = number(1, "PARTICLES", 3000), scale = number(3, "SCALE", 1);
   run(argc > 2 ? hmps::read_surface(argv[2], scale) : press::organ(), particles);
+  return std::fflush(stdout) == 0 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

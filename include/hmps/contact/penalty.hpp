@@ -55,6 +55,9 @@ class PenaltyStiffness {
     return value_;
   }
 
+  /// Whether it was given as k~, so that k depends on density and step.
+  [[nodiscard]] bool is_ratio() const { return is_ratio_; }
+
  private:
   PenaltyStiffness(double value, bool is_ratio) : value_(value), is_ratio_(is_ratio) {}
   double value_;

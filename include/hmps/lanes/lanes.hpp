@@ -22,7 +22,9 @@ namespace hmps::inline HMPS_ABI {
 /// it never uses a vector register.
 template <class T>
 struct alignas(detail::lanes_bytes) Lanes {
-  static_assert(std::floating_point<T>, "hmps: lanes hold float or double");
+  static_assert(std::same_as<T, float> || std::same_as<T, double>,
+                "hmps: lanes hold float or double: give one of them as the scalar of bonds, such as "
+                "hmps::LatticeBonds<double, 3>");
   using Scalar = T;
   static constexpr int width = static_cast<int>(detail::lanes_bytes / sizeof(T));
   using Bits = detail::BitsOf<T>;

@@ -11,6 +11,7 @@
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
@@ -38,12 +39,13 @@ void require_extent(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
 }
 }  // namespace detail
 
-/// The particles that lie within `distance` (m) of the patch, for example those to be held by `hold`, by
-/// `ControlRegion` or, as `~particles_near(...)`, by the `moves` of `relax`. Hold one layer: a body begins to deform at
-/// the particles that are held, so that with two of them it is rigid for one spacing more. At a face along the lattice,
-/// 0.99 spacings select one layer; at a face at an angle to it they select one to two layers, of which
-/// `surface_layers(...).outermost` is one. Throws `InputError` if there is no such particle, for a distance that is not
-/// positive or is larger than the body, for a surface in another unit than the particles, and for a broken surface.
+/// The particles that lie within `distance` (m) of the patch, or beyond it by no more than rounding (1e-5 of it), for
+/// example those to be held by `hold`, by `ControlRegion` or, as `~particles_near(...)`, by the `moves` of `relax`.
+/// Hold one layer: a body begins to deform at the particles that are held, so that with two of them it is rigid for one
+/// spacing more. At a face along the lattice, 0.99 spacings select one layer; at a face at an angle to it they select
+/// one to two layers, of which `surface_layers(...).outermost` is one. Throws `InputError` if there is no such
+/// particle, for a distance that is not positive or is larger than the body, for a surface in another unit than the
+/// particles, and for a broken surface.
 template <class T, class S, Executor E = Serial>
 [[nodiscard]] ParticleSet particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch, double distance,
                                          const E& execute = {}) {
@@ -51,10 +53,11 @@ template <class T, class S, Executor E = Serial>
                   distance, " m; it must be positive, such as the spacing");
   require_finite(points, "the position");
   detail::require_extent(points, patch, distance);
+  const double reach = (1 + 1e-5) * distance + detail::rounding_of_distances(points);
   const TriangleTree tree(patch);
   std::vector<char> is_near(points.size(), 0);
   detail::guarded(execute)(points.size(), [&](std::size_t i) {
-    is_near[i] = tree.distance(points[i].template cast<double>()) <= distance ? 1 : 0;
+    is_near[i] = tree.distance(points[i].template cast<double>()) <= reach ? 1 : 0;
   });
   ParticleSet found(points.size(), [&](std::size_t i) { return is_near[i] != 0; });
   detail::require(

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nanoflann.hpp>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "hmps/core/abi.hpp"
@@ -111,6 +112,9 @@ template <class T, int D>
 class FixedRadiusSearch {
   using Points = detail::PointSet<T, D>;
   using Scalar = typename Points::Scalar;
+  // The memory of nanoflann is not aligned for long double.
+  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>,
+                "hmps: positions are views of float or double");
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<Scalar, Points>, Points, D, Index>;
 
  public:

@@ -96,7 +96,8 @@ namespace detail {
 }
 }  // namespace detail
 
-/// The surface with triangles whose edges are at most `longest` (m) long: longer ones are halved until none is left.
+/// The surface with triangles whose edges are at most `longest` (m) long: those longer than it by more than rounding
+/// (1e-5 of it) are halved until none is left.
 /// Neighbours share their new vertices, so that a closed surface stays closed; its shape does not change. A sliver
 /// is divided into slivers, nearly as many as a square on its longest edge would give. Throws `InputError` for a length
 /// that is not positive, a broken surface, and if the result would have more than 20 million triangles, in most cases
@@ -110,10 +111,10 @@ template <class S>
   const auto length = [&](Index a, Index b) {
     return static_cast<double>((mesh.vertices[a] - mesh.vertices[b]).norm());
   };
-  const double unit = longest * (1 + 1e-5);  // edges that only rounding makes longer do not count
+  const double bound = longest * (1 + 1e-5);  // edges that only rounding makes longer are not halved
   double expected = 0;
   for (const auto& [a, b, c] : mesh.triangles)
-    expected += detail::fewest_refined({length(a, b) / unit, length(b, c) / unit, length(c, a) / unit});
+    expected += detail::fewest_refined({length(a, b) / bound, length(b, c) / bound, length(c, a) / bound});
   expected = std::max(expected, area(mesh) / (longest * longest));
   detail::require(expected < most, "hmps: ", mesh.source, " refined to edges of ", longest, " m has more than ",
                   expected, " triangles; give a larger length, in metres, or remove long slivers in a mesh editor");
@@ -128,7 +129,7 @@ template <class S>
     std::vector<std::array<Index, 3>> finer;
     finer.reserve(mesh.triangles.size());
     for (auto t : mesh.triangles) {
-      const auto is_long = [&](std::size_t k) { return length(t[k], t[(k + 1) % 3]) > longest; };
+      const auto is_long = [&](std::size_t k) { return length(t[k], t[(k + 1) % 3]) > bound; };
       const int count = int{is_long(0)} + int{is_long(1)} + int{is_long(2)};
       if (count == 0) {
         finer.push_back(t);

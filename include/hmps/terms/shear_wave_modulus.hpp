@@ -25,6 +25,9 @@ namespace hmps::inline HMPS_ABI {
 /// @return E_hat in Pa
 template <class T>
 [[nodiscard]] constexpr T shear_wave_modulus(const T& shear_modulus) {
+  static_assert(
+      !requires { shear_modulus.shear_modulus(); },
+      "hmps: shear_wave_modulus takes the shear modulus in Pa, not the law; give it law.shear_modulus()");
   static_assert(detail::RequireReal<T>::value);
   return shear_modulus * T(4.0 / 3.0);
 }

@@ -14,6 +14,7 @@
 #include "bonds_of_a_scene.hpp"
 #include "hmps/bonds/bond_settings.hpp"
 #include "hmps/bonds/bonds.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/terms/term.hpp"
 
 namespace bond_list_test {
@@ -106,6 +107,45 @@ TEST(BondList, TakesAnotherWeightAndRadius) {
     EXPECT_EQ(w, 2.0f);
   });
   EXPECT_EQ(neighbours, 6);
+}
+
+// Neighbours at exactly the radius: rounding of positions far from the origin must not decide.
+template <class S>
+void expect_bonds_of_the_lattice(double shift) {
+  std::vector<hmps::Vector<S, 3>> points;
+  for (const auto& p : scenes::box<3>({6, 6, 6}))
+    points.push_back((p + hmps::Vector<double, 3>(shift, -shift, shift)).cast<S>());
+  const hmps::BondSettings settings{.spacing = scenes::Scene<3>::spacing, .radius_ratio = 2.0};
+  const auto even = [](double, double) { return 1.0; };
+  const hmps::BondList<S, 3> list(hmps::vectors(points), settings, hmps::EveryBond{}, even);
+  const hmps::LatticeBonds<S, 3> lattice(hmps::vectors(points), settings, hmps::EveryBond{}, even);
+  std::size_t of_list = 0, of_lattice = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    list.for_each_bond(i, [&](auto, const auto&, S) { ++of_list; });
+    lattice.for_each_bond(i, [&](auto, const auto&, S) { ++of_lattice; });
+  }
+  EXPECT_EQ(of_list, of_lattice) << shift;
+}
+TEST(BondList, HasTheBondsAtItsRadiusWhereverTheBodyIs) {
+  for (const double shift : {0.0, 0.1, 0.3, 1.0, 3.0}) expect_bonds_of_the_lattice<double>(shift);
+  for (const double shift : {0.0, 0.05, 0.1}) expect_bonds_of_the_lattice<float>(shift);
+}
+
+// No cloud fills space with particles that are 1.4 spacings apart or have 2.5 times as many neighbours.
+TEST(BondList, RefusesASpacingThatIsNotThatOfItsCloud) {
+  const auto points = scenes::box<3>({8, 8, 8});
+  for (const double ratio : {0.5, 0.6, 0.7, 0.78, 1.5, 1.7, 2.0}) {
+    const hmps::BondSettings settings{.spacing = ratio * scenes::Scene<3>::spacing};
+    EXPECT_NE(hmps_test::message_of([&] {
+                hmps::BondList<double, 3>(hmps::vectors(points), settings);
+              }).find("nearest particle is"),
+              std::string::npos)
+        << ratio;
+  }
+  for (const double ratio : {0.85, 1.0, 1.1}) {
+    const hmps::BondSettings settings{.spacing = ratio * scenes::Scene<3>::spacing};
+    EXPECT_NO_THROW((hmps::BondList<double, 3>(hmps::vectors(points), settings)));
+  }
 }
 
 TEST(BondList, CarriesTheVolumesOfItsParticles) {

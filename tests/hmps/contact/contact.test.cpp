@@ -815,6 +815,24 @@ TEST(Door, RefusesAPenaltyOfNothing) {
   EXPECT_NE(message_of([&] { pile.apply(contact, dt); }).find("PenaltyStiffness::ratio"), std::string::npos);
 }
 
+/// A ratio that gives next to no coefficient, such as with a density in other units.
+TEST(Door, NamesDensityAndStepIfARatioGivesNoPenalty) {
+  bodies::Pile<double, 3> pile(0.9);
+  MetaballContact<double, 3> contact(
+      {.spacing = 1e-3, .density = 1e-15, .stiffness = hmps::PenaltyStiffness::ratio(0.3)});
+  pile.declare(contact);
+  EXPECT_NE(message_of([&] { pile.apply(contact, dt); }).find("check the density, the step"), std::string::npos);
+}
+
+/// A step so short that k overflows is not a matter of the particles' density.
+TEST(Door, NamesTheStepIfItMakesThePenaltyOverflow) {
+  bodies::Pile<double, 3> pile(0.9);
+  MetaballContact<double, 3> contact(
+      {.spacing = 1e-3, .density = 1000, .stiffness = hmps::PenaltyStiffness::ratio(0.3)});
+  pile.declare(contact);
+  EXPECT_NE(message_of([&] { pile.apply(contact, 1e-200); }).find("at a step of 1e-200 s"), std::string::npos);
+}
+
 /// A report refers to organs by number.
 TEST(Door, RefusesTheReportOfAnotherContact) {
   const MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000});

@@ -64,6 +64,18 @@ TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
   EXPECT_NEAR(volume(torus), volume(hmps_test::torus_surface<double>(3, 1, 40, 5)), 1e-10);
 }
 
+/// Edges of eight lengths are halved to exactly one, whose computed length depends on where the surface is.
+TEST(SurfacePatch, RefinesASurfaceAlikeWhereverItIs) {
+  constexpr double l0 = 1e-3;
+  for (const double shift : {0.0, 1e-3, 1e-2, 5e-2, 0.3, 1.0}) {
+    const V lower = V::Constant(shift);
+    const auto top = surface_patch(hmps_test::box_surface<double>(lower, lower + V::Constant(8 * l0)),
+                                   [](const V&, const V& normal) { return normal[2] > 0.5; });
+    const auto fine = refine(top, l0 * std::sqrt(2.0));
+    EXPECT_EQ(fine.triangles.size(), 128u) << shift;
+  }
+}
+
 TEST(SurfacePatch, RejectsInvalidLengths) {
   for (const double longest : {0.0, -1.0, 1e-4}) EXPECT_THROW((void)refine(brick(), longest), InputError) << longest;
 }

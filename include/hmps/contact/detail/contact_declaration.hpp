@@ -94,7 +94,9 @@ class MetaballContact {
     return pair;
   }
 
-  /// Makes the next call rebuild all lists. Not needed after time steps.
+  /// Makes the next call treat the positions as new, for example after a jump to another state: it rebuilds all lists
+  /// and forgets the history, that is, on which side of a wall each slave was and the elastic slip of `SpringFriction`.
+  /// Not needed after time steps.
   void refresh() {
     lists_.refresh();
     history_.next_call();

@@ -17,7 +17,9 @@ S MetaballContact<S, D, Kernel, Friction, Penalty>::penalty(std::size_t pair, do
   const PenaltyStiffness& own = stiffness(pair);
   const double k = is_linear ? own.at(settings_.density, dt) : own.coefficient(settings_.density, dt);
   detail::require(!is_linear || k >= 1, "hmps: the penalty coefficient k is ", k,
-                  " N/m4, with which walls do not push; to give the ratio k~, use PenaltyStiffness::ratio");
+                  " N/m4, with which walls do not push; ",
+                  own.is_ratio() ? "check the density, the step and the ratio k~, in SI units"
+                                 : "to give the ratio k~, use PenaltyStiffness::ratio");
   const double largest = k * std::max({1., settings_.spacing, damping(friction(pair)) > 0 ? settings_.density : 0.});
   detail::require(k >= static_cast<double>(std::numeric_limits<S>::min()) &&
                       largest <= static_cast<double>(std::numeric_limits<S>::max()),
@@ -32,6 +34,7 @@ template <class S, int D, class Kernel, class Friction, class Penalty>
 template <PerParticle Rho>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& rho, double dt) const {
   for (std::size_t p = 0; p < own_.size(); ++p) {
+    if constexpr (is_linear) static_cast<void>(penalty(p, dt));  // a k beyond the range is not a matter of density
     const double k = is_linear ? stiffness(p).at(settings_.density, dt) : laws_[p].largest;
     const double least = k * dt * dt;  // the density at which k~ = 1
     if constexpr (std::is_arithmetic_v<Rho>)

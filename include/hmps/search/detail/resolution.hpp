@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,6 +33,16 @@ void require_resolved(const VectorView<T, D>& points, double spacing, double sha
     for (int c = 0; c < D; ++c)
       require_resolution<typename VectorView<T, D>::Scalar>(static_cast<double>(points(i, c)), spacing, share,
                                                             "particle ", i, " lies");
+}
+
+/// A bound in m, with a margin, for the error of the distance of two `points` whose coordinates were rounded to their
+/// scalar type: a comparison with a distance that lattices contain exactly, such as two spacings, has to allow for it.
+template <class T, int D>
+[[nodiscard]] double rounding_of_distances(const VectorView<T, D>& points) {
+  double largest = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < D; ++c) largest = std::max(largest, std::abs(static_cast<double>(points(i, c))));
+  return 4 * static_cast<double>(std::numeric_limits<typename VectorView<T, D>::Scalar>::epsilon()) * largest;
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail
