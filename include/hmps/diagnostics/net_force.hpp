@@ -32,6 +32,9 @@ template <class Sum, class Term, class E>
 ///
 ///     const auto pull = net_force(f, clamped, l0 * l0 * l0);  // what the body exerts on its clamp
 ///
+/// Under a stress that is uniform up to a face, rather than at rest, the outermost layer alone carries about 1.5 times
+/// the force on the face, and the next one the opposite of the excess: sum both.
+///
 /// @param f       force densities in N/m3
 /// @param volume  of a particle in m^D, a number or a `ScalarView`
 /// Throws `InputError` for a set made for another number of particles, views of different sizes and a volume that is

@@ -82,7 +82,7 @@ void evaluate_stress(const MatrixView<T, D>& F, const Material& material, const 
     if constexpr (std::is_arithmetic_v<decltype(result)>)
       stress(i, 0) = static_cast<R>(result);
     else
-      MatrixView<R, D>(stress).set(i, result);
+      MatrixView<R, static_cast<int>(decltype(result)::RowsAtCompileTime)>(stress).set(i, result);
   });
   require_finite_result<D>(stress, F, name);
 }
@@ -103,6 +103,17 @@ void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const 
   detail::evaluate_stress(
       F, material, stress, "Cauchy stress",
       [](const auto& law, const Matrix<double, D>& gradient) { return cauchy_stress(law, gradient); }, execute);
+}
+
+/// The same for a body in plane strain, including the stress across the plane, as files for ParaView need it; the law
+/// must also work in three dimensions.
+template <class T, class Material, class R, Executor E = Serial>
+void cauchy_stresses(const MatrixView<T, 2>& F, const Material& material, const MatrixView<R, 3>& stress,
+                     const E& execute = {}) {
+  detail::evaluate_stress(
+      F, material, stress, "Cauchy stress",
+      [](const auto& law, const Matrix<double, 2>& gradient) { return cauchy_stress(law, plane_strain(gradient)); },
+      execute);
 }
 
 /// Writes the first Piola-Kirchhoff stress P = dW/dF in Pa of every particle, force per reference area, \paper{7}, in

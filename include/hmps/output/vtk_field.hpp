@@ -99,15 +99,14 @@ template <class Real = float, class T, int D>
 }
 
 /// A tensor per particle as a field of nine numbers called `name`, row by row, as ParaView's Tensor Glyph and
-/// calculator expect them: `vtk_field("Cauchy stress", matrices(sigma))`. In two dimensions the third row and column
-/// are zero.
+/// calculator expect them: `vtk_field("Cauchy stress", matrices(sigma))`. A tensor in the plane has four, which
+/// ParaView shows but does not take for a tensor: its component across the plane is not among them, and a determinant,
+/// a trace or a von Mises stress that assumed one would be wrong. For nine, see `plane_strain` and `cauchy_stresses`.
 template <class Real = float, class T, int D>
 [[nodiscard]] VtkField vtk_field(std::string name, const MatrixView<T, D>& view) {
   require_view(view, name.c_str());
-  return detail::collect<Real>(std::move(name), view.size(), 9, [&](std::size_t i, int c) {
-    const int row = c / 3, column = c % 3;
-    return row < D && column < D ? view(i, row + D * column) : T(0);
-  });
+  return detail::collect<Real>(std::move(name), view.size(), D * D,
+                               [&](std::size_t i, int c) { return view(i, c / D + D * (c % D)); });
 }
 
 }  // namespace hmps::inline HMPS_ABI

@@ -153,8 +153,10 @@ template <class S, int D, Executor E>
 /// Sites on the surface, up to rounding, count as inside on its lower sides: where the distance is below 1e-9 spacings,
 /// or a few units in the last place of the coordinates, the shape is evaluated slightly further along x, y and z. A box
 /// of n spacings therefore holds n sites per direction whatever the origin, also in float where that resolves the
-/// spacing, and adjacent shapes have no gap. A shape that only tells inside from outside, without a distance, decides
-/// for itself where its surface belongs.
+/// spacing, and adjacent shapes have no gap. But a ball centred on a site, with a radius of a whole number of spacings,
+/// is then not symmetric, and its centre of mass lies beside that of the shape: put its centre between sites, or choose
+/// another radius. A shape that only tells inside from outside, without a distance, decides for itself where its
+/// surface belongs.
 ///
 /// `spacing` in metres; faces of the box need not lie on sites. Throws `InputError` for a spacing that is not positive,
 /// a box that is empty or not finite, more than 2^33 sites, 2^32 or more points, a shape that returns NaN, with the

@@ -71,6 +71,10 @@ TEST(Stress, InThePlaneIsThatOfPlaneStrain) {
   EXPECT_NEAR((cauchy_stress(law, F) - sigma.topLeftCorner<2, 2>()).norm(), 0, rounding);
   EXPECT_NE(sigma(2, 2), 0);
   EXPECT_NEAR(von_mises_stress(law, F), von_mises_stress(sigma), rounding);
+  std::vector<Matrix<double, 2>> of_all(2, F);
+  std::vector<Tensor> whole(2);
+  cauchy_stresses(matrices(of_all), law, matrices(whole));
+  EXPECT_EQ(whole[1], sigma);
 }
 
 TEST(Stress, VonMisesIsThePullOfSimpleTensionAndIgnoresPressure) {

@@ -11,8 +11,10 @@
 #include "hmps/analysis/relaxation.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
 #include "hmps/force/internal_force.hpp"
+#include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/neo_hookean.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/dead_load.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/gravity.hpp"
 #include "hmps/terms/shear_wave_modulus.hpp"
@@ -86,6 +88,34 @@ TEST(Hold, BodyBeginsToDeformAtTheHeldLayer) {
   EXPECT_NEAR(sag_over_beam(0, 1), 1.007, 0.003);
   EXPECT_NEAR(sag_over_beam(0.5, 1), 1.059, 0.003);
   EXPECT_NEAR(sag_over_beam(1.5, 2), 1.096, 0.003);
+}
+
+/// By how many spacings a bar of `columns` columns seems shorter in uniaxial tension, if its last column is pulled and
+/// its first one is held: from the displacement between the two, with no lateral contraction.
+double lost_length(int columns) {
+  using V2 = hmps::Vector<double, 2>;
+  constexpr double l0 = 1e-3, rho = 1000, shear = 5e3, load = 1, height = 7 * l0;
+  std::vector<V2> reference;
+  for (int a = 0; a < columns; ++a)
+    for (int k = 0; k < 7; ++k) reference.emplace_back(a * l0, k * l0);
+  const std::size_t n = reference.size();
+  const hmps::ParticleSet first(n, [](std::size_t i) { return i < 7; });
+  const hmps::ParticleSet pulled(n, [&](std::size_t i) { return i >= n - 7; });
+  const hmps::LatticeBonds<double, 2> bonds(hmps::vectors(reference), {.spacing = l0});
+  auto force = hmps::internal_force(bonds, hmps::elastic(hmps::LinearElastic<double>{0, shear}),
+                                    hmps::artificial(hmps::shear_wave_modulus(shear)),
+                                    hmps::dead_load(pulled, V2(load, 0), l0 * l0));
+  std::vector<V2> x = reference, v(n, V2::Zero()), f = v;
+  hmps::relax(force, hmps::vectors(x), hmps::vectors(v), hmps::vectors(f), rho,
+              {.spacing = l0, .tolerance = 1e-6, .load = load, .moves = ~first});
+  double moved = 0;
+  for (std::size_t i = n - 7; i < n; ++i) moved += (x[i] - reference[i])[0] / 7;
+  return (columns - 1) - moved / (load / height / (2 * shear)) / l0;
+}
+
+// The figure of docs/choosing.md.
+TEST(Hold, ABarInTensionSeemsShorterByAThirdOfASpacingAtEachEnd) {
+  for (const int columns : {10, 20}) EXPECT_NEAR(lost_length(columns), 0.64, 0.005) << columns;
 }
 
 TEST(Hold, RefusesBadInput) {

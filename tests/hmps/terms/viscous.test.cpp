@@ -155,4 +155,44 @@ TEST(Viscous, DampsThinBodiesAtOtherRatesThanBulk) {
   }
 }
 
+/// The rate at which the spin of a free disc or ball of `radius` spacings decays, over (D + 2) nu / R^2, from the
+/// torque of the viscous force: where a body rotates at omega, nu |grad v|^2 = 2 nu omega^2 although nothing deforms.
+template <int D>
+double decay_of_spin(double radius) {
+  using V = hmps::Vector<double, D>;
+  constexpr double l0 = 1e-3, rho = 1000, nu = 1e-3;
+  const int most = static_cast<int>(radius) + 1;
+  std::vector<V> points;
+  for (int a = -most; a < most; ++a)
+    for (int b = -most; b < most; ++b)
+      for (int c = D == 3 ? -most : 0; c < (D == 3 ? most : 1); ++c) {
+        V x;
+        x[0] = a + 0.5;
+        x[1] = b + 0.5;
+        if constexpr (D == 3) x[2] = c + 0.5;
+        if (x.norm() < radius) points.push_back(l0 * x);
+      }
+  const hmps::BondList<double, D> bonds(hmps::vectors(points), {.spacing = l0});
+  auto force = hmps::internal_force(bonds, hmps::viscous(rho, nu));
+  std::vector<V> v(points.size(), V::Zero()), f = v;
+  double torque = 0, inertia = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    v[i][0] = -points[i][1];
+    v[i][1] = points[i][0];
+    inertia += rho * v[i].squaredNorm();
+  }
+  force(hmps::vectors(points), hmps::vectors(v), hmps::vectors(f));
+  for (std::size_t i = 0; i < v.size(); ++i) torque -= f[i].dot(v[i]);
+  return torque / inertia / ((D + 2) * nu / (radius * l0 * radius * l0));
+}
+
+// The figures of docs/choosing.md.
+TEST(Viscous, SlowsRigidRotation) {
+  const std::vector<std::array<double, 3>> table{{5, 0.84, 0.79}, {10, 0.92, 0.90}, {15, 0.94, 0.93}};
+  for (const auto& [radius, disc, ball] : table) {
+    EXPECT_NEAR(decay_of_spin<2>(radius), disc, 0.006) << radius;
+    EXPECT_NEAR(decay_of_spin<3>(radius), ball, 0.006) << radius;
+  }
+}
+
 }  // namespace viscous_test
