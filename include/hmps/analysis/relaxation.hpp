@@ -33,6 +33,10 @@ namespace hmps::inline HMPS_ABI {
 /// combined. Leave viscosity out: it slows the search and does not change the result. If a load overshoots too far,
 /// apply it in increments and call `relax` for each. Starting close to the result saves most.
 ///
+/// The search lasts for a few quarter periods of the slowest mode that the load moves. On a lattice along a body, an
+/// even pull does not bend the body, by symmetry. On fitted particles and turned lattices it does, a little, so that
+/// the search takes up to about ten times as many iterations under such a load: see docs/fitted.md.
+///
 /// Contact of a fixed penalty coefficient, without friction and damping, may be given any step dt that its penalty
 /// allows. With friction, give it about the step that `relax` takes without (`Relaxation::step`), or half of that:
 /// friction damps slip within dt, so that the search takes the longer the shorter dt is. With `SpringFriction` the
