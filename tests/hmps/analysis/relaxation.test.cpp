@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "hmps/laws/neo_hookean.hpp"
 #include "hmps/terms/artificial.hpp"
 #include "hmps/terms/elastic.hpp"
+#include "hmps/terms/gravity.hpp"
 #include "hmps/terms/record.hpp"
 #include "hmps/terms/viscous.hpp"
 
@@ -270,6 +272,30 @@ TEST(Relax, FindsTheSameThroughViscosity) {
   const double sag = (end.back() - body.reference.back()).norm();
   for (std::size_t i = 0; i < end.size(); ++i) EXPECT_LT((body.position[i] - end[i]).norm(), 1e-4 * sag) << i;
 }
+
+/// The iterations that a column of 3 x 24 particles takes, hung up by its end, with particles that are displaced at
+/// random by up to `off` spacings along each axis.
+int iterations_of_a_pull(double off) {
+  auto points = column<2>(3, 24);
+  std::mt19937 random(3);
+  for (auto& x : points)
+    for (int c = 0; c < 2; ++c)
+      x[c] += off * l0 * (2.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1);
+  const BondList<double, 2> bonds(vectors(points), {.spacing = l0});
+  auto force =
+      internal_force(bonds, elastic(linear), artificial(young), hmps::gravity(density, Vector<double, 2>(0, 0.1)));
+  std::vector<Vector<double, 2>> x = points, v(points.size(), Vector<double, 2>::Zero()), f = v;
+  const double load = density * 0.1 * l0 * l0 * static_cast<double>(points.size());
+  return relax(force, vectors(x), vectors(v), vectors(f), density,
+               {.spacing = l0,
+                .tolerance = 1e-5,
+                .load = load,
+                .moves = ParticleSet(points.size(), [&](std::size_t i) { return points[i][1] > l0 / 2; })})
+      .iterations;
+}
+
+/// The statement of docs/fitted.md. By symmetry the pull does not bend the column on a lattice.
+TEST(Relax, TakesLongerWhereAPullAlsoBends) { EXPECT_GT(iterations_of_a_pull(0.1), 3 * iterations_of_a_pull(0)); }
 
 /// A hanging column that stretches to twice its length under its weight, applied at once: as it gets thinner its stable
 /// step shrinks, and relax has to follow.
