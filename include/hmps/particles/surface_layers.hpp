@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "hmps/bonds/bond_settings.hpp"
@@ -16,6 +17,7 @@
 #include "hmps/core/detail/spacing.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/search/fixed_radius.hpp"
@@ -26,6 +28,22 @@ namespace hmps::inline HMPS_ABI {
 struct SurfaceLayers {
   std::vector<Index> outermost;      ///< the outermost layer, sorted
   std::vector<Index> two_outermost;  ///< the two outermost layers, sorted
+
+  /// The part of the layers that belongs to `body`, one of several that were passed together. Throws `InputError` if
+  /// that set was made for fewer particles.
+  [[nodiscard]] SurfaceLayers of(const ParticleSet& body) const {
+    SurfaceLayers own;
+    for (const auto& [from, to] :
+         {std::pair(&outermost, &own.outermost), std::pair(&two_outermost, &own.two_outermost)})
+      for (const Index i : *from) {
+        detail::require(i < body.scene_size(), "hmps: the layers contain particle ", i,
+                        ", but the set of a body was made "
+                        "for a scene of ",
+                        body.scene_size(), " particles; make it for all of them");
+        if (body.contains(i)) to->push_back(i);
+      }
+    return own;
+  }
 };
 
 namespace detail {

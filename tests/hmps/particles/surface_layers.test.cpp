@@ -150,4 +150,20 @@ TEST(SurfaceLayers, RefuseAnotherUnitAndAOneSidedPredicate) {
   EXPECT_THROW((void)hmps::surface_layers(hmps::vectors(points), 1.0, never), hmps::InputError);
 }
 
+TEST(SurfaceLayers, OfOneBodyOfSeveral) {
+  std::vector<V> points;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 6; ++j)
+      for (int k = 0; k < 6; ++k) points.emplace_back(i, j, k);
+  const hmps::ParticleSet left(points.size(), [&](std::size_t i) { return points[i][0] < 5.5; });
+  const auto same = [&](std::size_t i, std::size_t j) { return left(i) == left(j); };
+  const auto both = hmps::surface_layers(hmps::vectors(points), 1.0, same);
+  const std::vector<V> alone(points.begin(), points.begin() + 216);
+  const auto of_left = both.of(left), expected = hmps::surface_layers(hmps::vectors(alone), 1.0);
+  EXPECT_EQ(of_left.outermost, expected.outermost);
+  EXPECT_EQ(of_left.two_outermost, expected.two_outermost);
+  EXPECT_EQ(both.of(~left).outermost.size(), of_left.outermost.size());
+  EXPECT_THROW((void)both.of(hmps::ParticleSet(216, [](std::size_t) { return true; })), hmps::InputError);
+}
+
 }  // namespace surface_layers_test
