@@ -94,9 +94,7 @@ class MetaballContact {
     return pair;
   }
 
-  /// Makes the next call treat the positions as new, for example after a jump to another state: it rebuilds all lists
-  /// and forgets the history, that is, on which side of a wall each slave was and the elastic slip of `SpringFriction`.
-  /// Not needed after time steps.
+  /// Makes the next call rebuild all lists and forget the history, for positions that jumped; no step needs it.
   void refresh() {
     lists_.refresh();
     history_.next_call();
