@@ -131,23 +131,6 @@ TEST(BondList, HasTheBondsAtItsRadiusWhereverTheBodyIs) {
   for (const double shift : {0.0, 0.05, 0.1}) expect_bonds_of_the_lattice<float>(shift);
 }
 
-// No cloud fills space with particles that are 1.4 spacings apart or have 2.5 times as many neighbours.
-TEST(BondList, RefusesASpacingThatIsNotThatOfItsCloud) {
-  const auto points = scenes::box<3>({8, 8, 8});
-  for (const double ratio : {0.5, 0.6, 0.7, 0.78, 1.5, 1.7, 2.0}) {
-    const hmps::BondSettings settings{.spacing = ratio * scenes::Scene<3>::spacing};
-    EXPECT_NE(hmps_test::message_of([&] {
-                hmps::BondList<double, 3>(hmps::vectors(points), settings);
-              }).find("nearest particle is"),
-              std::string::npos)
-        << ratio;
-  }
-  for (const double ratio : {0.85, 1.0, 1.1}) {
-    const hmps::BondSettings settings{.spacing = ratio * scenes::Scene<3>::spacing};
-    EXPECT_NO_THROW((hmps::BondList<double, 3>(hmps::vectors(points), settings)));
-  }
-}
-
 TEST(BondList, CarriesTheVolumesOfItsParticles) {
   using Bonds = hmps::BondList<double, 3>;
   using hmps_test::message_of;
