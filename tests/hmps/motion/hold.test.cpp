@@ -10,6 +10,7 @@
 
 #include "hmps/analysis/relaxation.hpp"
 #include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/diagnostics/net_force.hpp"
 #include "hmps/force/internal_force.hpp"
 #include "hmps/laws/linear_elastic.hpp"
 #include "hmps/laws/neo_hookean.hpp"
@@ -116,6 +117,46 @@ double lost_length(int columns) {
 // The figure of docs/choosing.md.
 TEST(Hold, ABarInTensionSeemsShorterByAThirdOfASpacingAtEachEnd) {
   for (const int columns : {10, 20}) EXPECT_NEAR(lost_length(columns), 0.64, 0.005) << columns;
+}
+
+/// A tissue that contracts along x with the stress `active` (Pa).
+struct Contracting {
+  hmps::NeoHookean<double> tissue;
+  double active;
+  template <class T>
+  [[nodiscard]] hmps::Matrix<T, 2> second_piola_kirchhoff(const hmps::Matrix<T, 2>& C, const T& J) const {
+    hmps::Matrix<T, 2> S = tissue.second_piola_kirchhoff(C, J);
+    S(0, 0) = S(0, 0) + T(active);
+    return S;
+  }
+};
+
+/// The force of an isometric contraction, a bar of `columns` columns with `held` of them held at each end, over stress
+/// times area, which is exact.
+double contraction(int columns, int held) {
+  using V2 = hmps::Vector<double, 2>;
+  constexpr double l0 = 1e-3, rho = 1000, active = 2e3, height = 5 * l0;
+  std::vector<V2> reference;
+  for (int a = 0; a < columns; ++a)
+    for (int k = 0; k < 5; ++k) reference.emplace_back(a * l0, k * l0);
+  const std::size_t n = reference.size();
+  const auto at_left = [&](std::size_t i) { return i < static_cast<std::size_t>(5 * held); };
+  const hmps::ParticleSet left(n, at_left);
+  const hmps::ParticleSet both(n, [&](std::size_t i) { return at_left(i) || at_left(n - 1 - i); });
+  const hmps::LatticeBonds<double, 2> bonds(hmps::vectors(reference), {.spacing = l0});
+  auto force = hmps::internal_force(bonds, hmps::elastic(Contracting{{10e3, 20e3}, active}),
+                                    hmps::artificial(hmps::shear_wave_modulus(10e3)));
+  std::vector<V2> x = reference, v(n, V2::Zero()), f = v;
+  hmps::relax(force, hmps::vectors(x), hmps::vectors(v), hmps::vectors(f), rho,
+              {.spacing = l0, .tolerance = 1e-5, .load = active * height, .moves = ~both});
+  return hmps::net_force(hmps::vectors(f), left, l0 * l0)[0] / (active * height);
+}
+
+// The figures of docs/choosing.md.
+TEST(Hold, TwoLayersCarryAStressOfTheBodysOwnExactly) {
+  EXPECT_NEAR(contraction(10, 2), 1, 1e-6);
+  EXPECT_NEAR(contraction(10, 1), 1.069, 0.001);
+  EXPECT_NEAR(contraction(20, 1), 1.031, 0.001);
 }
 
 TEST(Hold, RefusesBadInput) {
