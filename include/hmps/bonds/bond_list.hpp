@@ -183,11 +183,7 @@ class BondList : public Blocks<K, D> {
   template <class T, class Bonded, class Weight>
   void find_bonds(const VectorView<T, D>& reference, const BondSettings& settings, Bonded& bonded, Weight& weight) {
     const double radius = settings.spacing * settings.radius_ratio;
-    using S = typename VectorView<T, D>::Scalar;
-    // Rounding in the user's scalar type, of lengths and of positions anywhere, must not decide whether a lattice
-    // neighbour is bonded.
-    const auto reach = static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())) +
-                                      detail::rounding_of_distances(reference));
+    const auto reach = detail::reach_of(reference, radius);  // rounding must not decide about a lattice neighbour
     const FixedRadiusSearch<T, D> search(reference);
     detail::require_plausible_spacing(search, settings, reach);
     const NeighbourList list = find_neighbours(search, reach);

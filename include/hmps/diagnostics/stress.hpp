@@ -105,8 +105,8 @@ void cauchy_stresses(const MatrixView<T, D>& F, const Material& material, const 
       [](const auto& law, const Matrix<double, D>& gradient) { return cauchy_stress(law, gradient); }, execute);
 }
 
-/// The same for a body in plane strain, including the stress across the plane, as files for ParaView need it; the law
-/// must also work in three dimensions.
+/// The same for a body in plane strain, with the stress across the plane, as ParaView needs it. Parameters and errors
+/// are the same; the law must also work in three dimensions.
 template <class T, class Material, class R, Executor E = Serial>
 void cauchy_stresses(const MatrixView<T, 2>& F, const Material& material, const MatrixView<R, 3>& stress,
                      const E& execute = {}) {

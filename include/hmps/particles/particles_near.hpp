@@ -39,13 +39,13 @@ void require_extent(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch,
 }
 }  // namespace detail
 
-/// The particles that lie within `distance` (m) of the patch, or beyond it by no more than rounding (1e-5 of it), for
-/// example those to be held by `hold`, by `ControlRegion` or, as `~particles_near(...)`, by the `moves` of `relax`.
-/// Hold one layer: a body begins to deform at the particles that are held, so that with two of them it is rigid for one
-/// spacing more. At a face along the lattice, 0.99 spacings select one layer; at a face at an angle to it they select
-/// one to two layers, of which `surface_layers(...).outermost` is one. Throws `InputError` if there is no such
-/// particle, for a distance that is not positive or is larger than the body, for a surface in another unit than the
-/// particles, and for a broken surface.
+/// The particles that lie within `distance` (m) of the patch, or beyond it by rounding (1e-5 of it and a few units in
+/// the last place of the coordinates), for example those to be held by `hold`, by `ControlRegion` or, as
+/// `~particles_near(...)`, by the `moves` of `relax`. Hold one layer: a body begins to deform at the particles that are
+/// held, so that with two of them it is rigid for one spacing more. At a face along the lattice, 0.99 spacings select
+/// one layer; at a face at an angle to it they select one to two layers, of which `surface_layers(...).outermost` is
+/// one. Throws `InputError` if there is no such particle, for a distance that is not positive or is larger than the
+/// body, for a surface in another unit than the particles, and for a broken surface.
 template <class T, class S, Executor E = Serial>
 [[nodiscard]] ParticleSet particles_near(const VectorView<T, 3>& points, const SurfaceMesh<S>& patch, double distance,
                                          const E& execute = {}) {
@@ -53,7 +53,8 @@ template <class T, class S, Executor E = Serial>
                   distance, " m; it must be positive, such as the spacing");
   require_finite(points, "the position");
   detail::require_extent(points, patch, distance);
-  const double reach = (1 + 1e-5) * distance + detail::rounding_of_distances(points);
+  const double reach = (1 + 1e-5) * distance + detail::rounding_of_distances(points) +
+                       detail::rounding_of_distances(vectors(patch.vertices));
   const TriangleTree tree(patch);
   std::vector<char> is_near(points.size(), 0);
   detail::guarded(execute)(points.size(), [&](std::size_t i) {

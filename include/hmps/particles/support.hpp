@@ -20,6 +20,7 @@
 #include "hmps/core/particle_set.hpp"
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/search/fixed_radius.hpp"
 #include "hmps/search/nearest_spacing.hpp"
 
@@ -68,13 +69,10 @@ class Supports {
         radius_(settings.spacing * settings.radius_ratio),
         spacing_(settings.spacing) {
     validate(settings);
-    using S = typename VectorView<T, D>::Scalar;
-    // As in `BondList`: rounding must not decide whether a lattice site counts as a neighbour.
-    const double slack = 1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon());
+    const auto reach = reach_of(points, radius_);  // as in `BondList`
     const FixedRadiusSearch<T, D> search(points);
-    require_plausible_spacing(search, {settings.spacing, settings.radius_ratio}, static_cast<S>(radius_ * slack),
-                              false);
-    list_ = find_neighbours(search, static_cast<S>(radius_ * slack));
+    require_plausible_spacing(search, {settings.spacing, settings.radius_ratio}, reach, false);
+    list_ = find_neighbours(search, reach);
   }
 
   /// Calls `visit(j)` for each particle bonded to `i`.

@@ -37,9 +37,8 @@ struct SurfaceLayers {
          {std::pair(&outermost, &own.outermost), std::pair(&two_outermost, &own.two_outermost)})
       for (const Index i : *from) {
         detail::require(i < body.scene_size(), "hmps: the layers contain particle ", i,
-                        ", but the set of a body was made "
-                        "for a scene of ",
-                        body.scene_size(), " particles; make it for all of them");
+                        ", but the set of a body was made for a scene of ", body.scene_size(),
+                        " particles; make it for all of them");
         if (body.contains(i)) to->push_back(i);
       }
     return own;

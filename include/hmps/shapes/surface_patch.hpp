@@ -14,6 +14,8 @@
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
+#include "hmps/search/detail/resolution.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -97,7 +99,7 @@ namespace detail {
 }  // namespace detail
 
 /// The surface with triangles whose edges are at most `longest` (m) long: those longer than it by more than rounding
-/// (1e-5 of it) are halved until none is left.
+/// (1e-5 of it and a few units in the last place of the coordinates) are halved until none is left.
 /// Neighbours share their new vertices, so that a closed surface stays closed; its shape does not change. A sliver
 /// is divided into slivers, nearly as many as a square on its longest edge would give. Throws `InputError` for a length
 /// that is not positive, a broken surface, and if the result would have more than 20 million triangles, in most cases
@@ -111,7 +113,8 @@ template <class S>
   const auto length = [&](Index a, Index b) {
     return static_cast<double>((mesh.vertices[a] - mesh.vertices[b]).norm());
   };
-  const double bound = longest * (1 + 1e-5);  // edges that only rounding makes longer are not halved
+  // Edges that only rounding makes longer are not halved.
+  const double bound = longest * (1 + 1e-5) + detail::rounding_of_distances(vectors(mesh.vertices));
   double expected = 0;
   for (const auto& [a, b, c] : mesh.triangles)
     expected += detail::fewest_refined({length(a, b) / bound, length(b, c) / bound, length(c, a) / bound});

@@ -65,14 +65,18 @@ TEST(SurfacePatch, RefinedItIsTheSameSurfaceWithShortEdges) {
 }
 
 /// Edges of eight lengths are halved to exactly one, whose computed length depends on where the surface is.
+template <class S>
+std::size_t refined_triangles(double shift) {
+  const S l0 = S(1e-3);
+  const Vector<S, 3> lower = Vector<S, 3>::Constant(static_cast<S>(shift));
+  const auto top = surface_patch(hmps_test::box_surface<S>(lower, lower + Vector<S, 3>::Constant(8 * l0)),
+                                 [](const auto&, const auto& normal) { return normal[2] > S(0.5); });
+  return refine(top, 1e-3 * std::sqrt(2.0)).triangles.size();
+}
 TEST(SurfacePatch, RefinesASurfaceAlikeWhereverItIs) {
-  constexpr double l0 = 1e-3;
   for (const double shift : {0.0, 1e-3, 1e-2, 5e-2, 0.3, 1.0}) {
-    const V lower = V::Constant(shift);
-    const auto top = surface_patch(hmps_test::box_surface<double>(lower, lower + V::Constant(8 * l0)),
-                                   [](const V&, const V& normal) { return normal[2] > 0.5; });
-    const auto fine = refine(top, l0 * std::sqrt(2.0));
-    EXPECT_EQ(fine.triangles.size(), 128u) << shift;
+    EXPECT_EQ(refined_triangles<double>(shift), 128u) << shift;
+    EXPECT_EQ(refined_triangles<float>(shift), 128u) << shift;
   }
 }
 

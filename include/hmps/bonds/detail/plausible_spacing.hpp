@@ -15,12 +15,16 @@
 
 namespace hmps::inline HMPS_ABI::detail {
 
-/// Throws `InputError` if `settings` do not fit the cloud of `search`: if a quarter of its particles have more than
-/// 2.5 times the neighbours expected within the radius (on a lattice at most 1.6 times) or all have more than 4 times
-/// as many on average, if nine in ten have none, or if the nearest neighbour typically lies further away than 1.25
-/// spacings (1.12 in the densest packing). All occur when metres and millimetres are mixed. The first would take memory
-/// quadratic in the number of particles, so a sample of 64 particles, spread over the cloud, is tested in advance. The
-/// tests for too few neighbours are made only if `also_alone` is set.
+/// Throws `InputError` if `settings` do not fit the cloud of `search`:
+/// - if its particles have more than four times the neighbours expected within the radius, on average, for which a list
+///   would take memory quadratic in their number;
+/// - if a quarter of them has more than 3.5 times as many, and the nearest one is typically closer than 0.8 spacings;
+/// - if nine in ten have none, or the nearest one is typically farther away than 1.6 spacings, which is more than in
+/// any
+///   cloud that `fit_particles` makes (1.53). This is tested only if `also_alone` is set.
+///
+/// Metres and millimetres that are mixed do all of it, and so do spacings of 0.6 and, in thick bodies, of 1.5 times the
+/// right one. A sample of 64 particles, spread over the cloud, is tested.
 template <class T, int D>
 void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
                                typename VectorView<T, D>::Scalar radius, bool also_alone = true) {
@@ -56,14 +60,15 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
   const double mean = static_cast<double>(sum) / static_cast<double>(samples);
   const auto quarter = counts.begin() + static_cast<std::ptrdiff_t>(3 * samples / 4);  // most may lie at the surface
   std::nth_element(counts.begin(), quarter, counts.end());
-  if (mean > 4 * usual || static_cast<double>(*quarter) > 2.5 * usual)
+  const double apart = nearest();
+  const bool is_dense = static_cast<double>(*quarter) > 3.5 * usual && apart < 0.8 * settings.spacing;
+  if (mean > 4 * usual || is_dense)
     throw_input_error({"hmps: particle ", fullest, " has ", most, " neighbours within the effective radius of ", radius,
                        " m, ", samples, " particles that were sampled have ", std::round(mean),
                        " on average, but a spacing of ", settings.spacing, " m gives about ", std::round(usual),
-                       "; the typical distance to the nearest particle is ", nearest(),
+                       "; the typical distance to the nearest particle is ", apart,
                        " m: give a spacing of that size, in the unit of the positions"});
   if (!also_alone) return;
-  const double apart = nearest();
   if (10 * alone >= 9 * samples) {
     const std::string remedy = apart < 1.5 * settings.spacing
                                    ? message("the radius of ", settings.radius_ratio,
@@ -77,10 +82,10 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                        " particles that were sampled; the typical distance to the nearest particle is ", apart,
                        " m: ", remedy});
   }
-  require(apart <= 1.25 * settings.spacing, "hmps: the typical distance to the nearest particle is ", apart, " m, ",
-          apart / settings.spacing, " times the spacing of ", settings.spacing,
-          " m, but particles that fill a body lie at most 1.12 spacings from the nearest; give a spacing of that size, "
-          "in the unit of the positions");
+  require(settings.unbonded || apart <= 1.6 * settings.spacing,
+          "hmps: the typical distance to the nearest particle is ", apart, " m, ", apart / settings.spacing,
+          " times the spacing of ", settings.spacing,
+          " m; give a spacing of about that size, in the unit of the positions");
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail

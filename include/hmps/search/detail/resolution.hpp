@@ -45,4 +45,13 @@ template <class T, int D>
   return 4 * static_cast<double>(std::numeric_limits<typename VectorView<T, D>::Scalar>::epsilon()) * largest;
 }
 
+/// `radius` (m), and the little by which rounding may make the distance of two `points` longer than it: of lengths and
+/// of positions anywhere.
+template <class T, int D>
+[[nodiscard]] typename VectorView<T, D>::Scalar reach_of(const VectorView<T, D>& points, double radius) {
+  using S = typename VectorView<T, D>::Scalar;
+  return static_cast<S>(radius * (1 + 16 * static_cast<double>(std::numeric_limits<S>::epsilon())) +
+                        rounding_of_distances(points));
+}
+
 }  // namespace hmps::inline HMPS_ABI::detail

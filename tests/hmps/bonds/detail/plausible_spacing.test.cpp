@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "../../../reference/scenes.hpp"
 #include "../bonds_of_a_scene.hpp"
 #include "hmps/bonds/bond_list.hpp"
 #include "hmps/core/view.hpp"
+#include "hmps/particles/fitted.hpp"
 
 namespace plausible_spacing_test {
 
@@ -48,11 +52,11 @@ TEST(PlausibleSpacing, NamesARadiusThatIsNotInSpacings) {
   EXPECT_TRUE(has(error, "radius_ratio is a number of spacings")) << error;
 }
 
-// Somewhat denser or sparser than a lattice, or with another radius, as clouds that are not lattices may be.
+// Denser or sparser than a lattice, or with another radius, as clouds that are not lattices may be.
 TEST(PlausibleSpacing, AcceptsUnusualSpacings) {
   constexpr double l0 = scenes::Scene<3>::spacing;
-  for (const double ratio : {0.85, 1.0, 1.2}) {
-    EXPECT_EQ(error_with<3>(scenes::box<3>({7, 7, 7}), ratio * l0), "nothing was thrown") << ratio;
+  for (const double ratio : {0.7, 1.0, 1.3}) {
+    EXPECT_EQ(error_with<3>(scenes::box<3>({9, 9, 9}), ratio * l0), "nothing was thrown") << ratio;
     EXPECT_EQ(error_with<2>(scenes::box<2>({9, 9}), ratio * l0), "nothing was thrown") << ratio;
   }
   for (const double radius : {1.01, 1.4143, 1.7321, 2.0, 3.1}) {
@@ -61,13 +65,39 @@ TEST(PlausibleSpacing, AcceptsUnusualSpacings) {
   }
 }
 
-// No cloud that fills a body has its particles as far apart or as densely as this.
 TEST(PlausibleSpacing, RefusesSpacingsThatNoCloudHas) {
   constexpr double l0 = scenes::Scene<3>::spacing;
-  for (const double ratio : {0.6, 0.7, 1.5, 2.0}) {
-    EXPECT_TRUE(has(error_with<3>(scenes::box<3>({9, 9, 9}), ratio * l0), "give a spacing of that size")) << ratio;
-    EXPECT_TRUE(has(error_with<2>(scenes::box<2>({9, 9}), ratio * l0), "give a spacing of that size") || ratio == 1.5);
+  for (const double ratio : {0.58, 0.6}) {
+    EXPECT_TRUE(has(error_with<3>(scenes::box<3>({9, 9, 9}), ratio * l0), "spacing of about that size")) << ratio;
+    EXPECT_TRUE(has(error_with<2>(scenes::box<2>({9, 9}), ratio * l0), "spacing of about that size")) << ratio;
   }
+  EXPECT_TRUE(has(error_with<3>(scenes::box<3>({16, 16, 16}), 1.5 * l0), "give a spacing of that size"));
+  EXPECT_TRUE(has(error_with<2>(scenes::box<2>({40, 40}), 2.1 * l0), "give a spacing of that size"));
+}
+
+// Finer in a part, or several bodies in one place that are not bonded to each other.
+TEST(PlausibleSpacing, AcceptsGradedCloudsAndBodiesThatOverlap) {
+  constexpr double l0 = scenes::Scene<3>::spacing;
+  auto graded = scenes::box<3>({12, 12, 12});
+  for (const auto& x : scenes::box<3>({8, 8, 8}))
+    graded.push_back(0.5 * (x - scenes::box<3>({1, 1, 1})[0]) + graded[0] +
+                     hmps::Vector<double, 3>::Constant(0.25 * l0));
+  EXPECT_EQ(error_with<3>(graded, l0), "nothing was thrown");
+  std::vector<hmps::Vector<double, 3>> overlapping;
+  for (int body = 0; body < 3; ++body)
+    for (const auto& x : scenes::box<3>({8, 8, 8}))
+      overlapping.push_back(x + hmps::Vector<double, 3>::Constant(0.25 * l0 * body));
+  const auto same = [](std::size_t i, std::size_t j) { return i / 512 == j / 512; };
+  EXPECT_NO_THROW((hmps::BondList<double, 3>(hmps::vectors(overlapping), {.spacing = l0}, same)));
+}
+
+// A shell of one layer, in which the particles lie closer across it and farther apart along it.
+TEST(PlausibleSpacing, AcceptsTheCloudsOfFittedShells) {
+  const auto shell = [](const hmps::Vector<double, 3>& x) { return std::abs(x.norm() - 4) - 0.31; };
+  const hmps::Vector<double, 3> reach = hmps::Vector<double, 3>::Constant(4.6);
+  const auto fitted =
+      hmps::fit_particles(shell, hmps::Box<double, 3>{-reach, reach}, 1.0, {.least_layers = 1, .least_support = 0});
+  EXPECT_NO_THROW((hmps::BondList<double, 3>(hmps::vectors(fitted.positions), {.spacing = 1.0, .radius_ratio = 2.5})));
 }
 
 }  // namespace plausible_spacing_test
