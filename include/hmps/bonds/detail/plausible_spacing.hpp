@@ -16,15 +16,14 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Throws `InputError` if `settings` do not fit the cloud of `search`:
-/// - if its particles have more than four times the neighbours expected within the radius, on average, for which a list
-///   would take memory quadratic in their number;
-/// - if a quarter of them has more than 3.5 times as many, and the nearest one is typically closer than 0.8 spacings;
-/// - if nine in ten have none, or the nearest one is typically farther away than 1.6 spacings, which is more than in
-/// any
-///   cloud that `fit_particles` makes (1.53). This is tested only if `also_alone` is set.
+/// - if its particles have, on average, more than four times the neighbours expected within the radius, for which a
+///   list would take memory quadratic in their number;
+/// - if a quarter of them have more than 3.5 times as many, and the nearest one is typically closer than 0.8 spacings;
+/// - if nine in ten have none, or the nearest one is typically farther away than 1.6 spacings; in clouds made by
+///   `fit_particles` it is at most 1.53 spacings away. This is tested only if `also_alone` is set.
 ///
-/// Metres and millimetres that are mixed do all of it, and so do spacings of 0.6 and, in thick bodies, of 1.5 times the
-/// right one. A sample of 64 particles, spread over the cloud, is tested.
+/// Mixed metres and millimetres are found in this way, and so are spacings of 0.6 times the right one and, in thick
+/// bodies, of 1.5 times. A sample of 64 particles, spread over the cloud, is tested.
 template <class T, int D>
 void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const BondSettings& settings,
                                typename VectorView<T, D>::Scalar radius, bool also_alone = true) {
