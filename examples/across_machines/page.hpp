@@ -119,8 +119,10 @@ template <class Cell>
   }
   text += "\n" + line + "\n";
   for (const auto& row : all) {
-    text += "| " + amount(static_cast<double>(row[0].particles)) + " |";
-    for (std::size_t p = 0; p < longest; ++p) text += p < row.size() ? " " + cell(row[p], row[0]) + " |" : " |";
+    // By `format`, because g++ 12 warns of a false overlap in "| " + std::string.
+    text += format("| %s |", amount(static_cast<double>(row[0].particles)).c_str());
+    for (std::size_t p = 0; p < longest; ++p)
+      text += p < row.size() ? format(" %s |", std::string(cell(row[p], row[0])).c_str()) : " |";
     text += "\n";
   }
   return text;
@@ -221,7 +223,9 @@ of the second):
     text += format("| %s |", network.name);
     for (const double cores : {2., 32.})
       for (const auto& [doublings, gain] : {std::pair<std::size_t, double>{1, 1.5}, {4, 8.}})
-        text += " " + needed(stay_below(all, {m.force * 1e6, m.contact * 1e6, cores}, network, doublings, gain)) + " |";
+        text +=
+            format(" %s |",
+                   needed(stay_below(all, {m.force * 1e6, m.contact * 1e6, cores}, network, doublings, gain)).c_str());
     text += "\n";
   }
   text += "\nUse one machine for scenes with fewer particles than the number for two machines.\n";
