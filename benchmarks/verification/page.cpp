@@ -16,7 +16,8 @@ using report::Cells, report::Colour, report::Panel, report::wrapped;
 
 std::string percent(double error) {
   if (!std::isfinite(error)) return "failed";
-  return (error > 0 ? "+" : "") + report::digits(100 * error, 2) + " %";
+  const std::string number = report::digits(100 * error, 2) + " %";
+  return error > 0 ? '+' + number : number;
 }
 
 /// The result of a method for a quantity: the largest error if the method should be right at any spacing, otherwise the
