@@ -35,7 +35,7 @@ namespace hmps::inline HMPS_ABI {
 ///
 /// The search lasts for a few quarter periods of the slowest mode that the load moves. On a lattice along a body, an
 /// even pull does not bend the body, by symmetry. On fitted particles and turned lattices it does, a little, so that
-/// the search takes up to about ten times as many iterations under such a load: see docs/fitted.md.
+/// the search takes several times as many iterations under such a load: see docs/fitted.md.
 ///
 /// Contact of a fixed penalty coefficient, without friction and damping, may be given any step dt that its penalty
 /// allows. With friction, give it about the step that `relax` takes without (`Relaxation::step`), or half of that:

@@ -8,6 +8,10 @@
 #include <vector>
 
 #include "../../reference/backwards.hpp"
+#include "hmps/bonds/lattice_bonds.hpp"
+#include "hmps/force/internal_force.hpp"
+#include "hmps/laws/linear_elastic.hpp"
+#include "hmps/terms/elastic.hpp"
 
 namespace net_force_test {
 
@@ -54,6 +58,24 @@ TEST(NetForce, EveryExecutorGivesTheSameBits) {
   EXPECT_EQ(net_moment(vectors(x), vectors(f), set, 0.3)[0],
             net_moment(vectors(x), vectors(f), set, 0.3, Vector<double, 2>(0, 0), backwards)[0]);
   EXPECT_EQ(mean_displacement(vectors(x), vectors(f), set), mean_displacement(vectors(x), vectors(f), set, backwards));
+}
+
+/// A bar that is stretched evenly, with no stress across it: the face is pulled by stress times height.
+TEST(NetForce, OfAnEvenStressIsThatOfTheTwoOutermostLayers) {
+  constexpr double l0 = 1e-3, shear = 5e3, strain = 0.01;
+  std::vector<Vector<double, 2>> reference, x;
+  for (int a = 0; a < 10; ++a)
+    for (int k = 0; k < 7; ++k) reference.emplace_back(a * l0, k * l0);
+  for (const auto& X : reference) x.emplace_back((1 + strain) * X[0], X[1]);
+  const LatticeBonds<double, 2> bonds(vectors(reference), {.spacing = l0});
+  std::vector<Vector<double, 2>> f(x.size());
+  internal_force(bonds, elastic(LinearElastic<double>{0, shear}))(vectors(x), vectors(f));
+  const auto share = [&](std::size_t layers) {
+    const ParticleSet end(x.size(), [&](std::size_t i) { return i >= x.size() - 7 * layers; });
+    return -net_force(vectors(f), end, l0 * l0)[0] / (2 * shear * strain * 7 * l0);
+  };
+  EXPECT_NEAR(share(1), 1.5, 1e-9);
+  EXPECT_NEAR(share(2), 1, 1e-9);
 }
 
 TEST(NetForce, RefusesBadInput) {

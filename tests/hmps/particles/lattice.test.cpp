@@ -122,6 +122,23 @@ TYPED_TEST(Lattice, NoSiteIsLostBetweenBodiesThatTouch) {
   EXPECT_EQ(part(above), 55 * row / 10);
 }
 
+// A site of each pair of opposite ones on the surface counts, so that the ball is symmetric only without such sites.
+TYPED_TEST(Lattice, ABallAboutASiteIsSymmetricUnlessSitesLieOnIt) {
+  using S = typename TypeParam::S;
+  constexpr int D = TypeParam::D;
+  using V = Vector<S, D>;
+  const auto off_centre = [](S radius, S origin) {
+    const Box<S, D> box{V::Constant(S(-8)), V::Constant(S(8))};
+    V sum = V::Zero();
+    for (const V& x : hmps::fill_lattice(hmps::Ball<S, D>{.radius = radius}, box, S(1), V(V::Constant(origin))))
+      sum += x;
+    return sum.norm();
+  };
+  EXPECT_GT(off_centre(5, 0), 1);
+  EXPECT_EQ(off_centre(S(5.2), 0), 0);
+  EXPECT_EQ(off_centre(5, S(0.5)), 0);
+}
+
 TYPED_TEST(Lattice, StartsAtTheGivenOrigin) {
   using S = typename TypeParam::S;
   constexpr int D = TypeParam::D;

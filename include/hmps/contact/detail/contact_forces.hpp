@@ -34,8 +34,7 @@ template <class S, int D, class Kernel, class Friction, class Penalty>
 template <PerParticle Rho>
 void MetaballContact<S, D, Kernel, Friction, Penalty>::require_heavy(const Rho& rho, double dt) const {
   for (std::size_t p = 0; p < own_.size(); ++p) {
-    if constexpr (is_linear) static_cast<void>(penalty(p, dt));  // a k beyond the range is not a matter of density
-    const double k = is_linear ? stiffness(p).at(settings_.density, dt) : laws_[p].largest;
+    const double k = static_cast<double>(is_linear ? penalty(p, dt) : laws_[p].largest);
     const double least = k * dt * dt;  // the density at which k~ = 1
     if constexpr (std::is_arithmetic_v<Rho>)
       if (static_cast<double>(rho) * lists_.organs().least_volume() > least) continue;

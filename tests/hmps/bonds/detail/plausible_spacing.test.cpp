@@ -73,6 +73,7 @@ TEST(PlausibleSpacing, RefusesSpacingsThatNoCloudHas) {
   }
   EXPECT_TRUE(has(error_with<3>(scenes::box<3>({16, 16, 16}), 1.5 * l0), "give a spacing of that size"));
   EXPECT_TRUE(has(error_with<2>(scenes::box<2>({40, 40}), 2.1 * l0), "give a spacing of that size"));
+  EXPECT_TRUE(has(error_with<3>(scenes::box<3>({24, 24, 2}), 2.1 * l0), "give a spacing of that size"));
 }
 
 // Finer in a part, or several bodies in one place that are not bonded to each other.
