@@ -39,7 +39,21 @@ template <class T>
 }
 template <class T>
 [[nodiscard]] HMPS_INLINE Lanes<T> sqrt(const Lanes<T>& a) {
+#if defined(HMPS_ROOT_OF_FLOATS)
+  Lanes<T> result;
+  HMPS_EACH_REGISTER {
+    typename detail::Register<T>::Vector x;
+    __builtin_memcpy(&x, a.lane + l, sizeof(x));
+    if constexpr (sizeof(T) == sizeof(float))
+      x = HMPS_ROOT_OF_FLOATS(x);
+    else
+      x = HMPS_ROOT_OF_DOUBLES(x);
+    __builtin_memcpy(result.lane + l, &x, sizeof(x));
+  }
+  return result;
+#else
   return detail::each(a, [](T x) { return std::sqrt(x); });
+#endif
 }
 template <class T>
 [[nodiscard]] inline Lanes<T> log(const Lanes<T>& a) {

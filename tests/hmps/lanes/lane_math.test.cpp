@@ -38,6 +38,21 @@ TYPED_TEST(LaneMath, HaveTheFunctionsThatLawsCall) {
   }
 }
 
+TYPED_TEST(LaneMath, TakeTheSameRootAsANumber) {
+  using T = TypeParam;
+  using L = hmps::Lanes<T>;
+  using Limits = std::numeric_limits<T>;
+  const std::vector<T> numbers{T(0), Limits::denorm_min(), Limits::min(),      T(1) / T(3),
+                               T(2), Limits::max(),        Limits::infinity(), T(-0.0)};
+  for (std::size_t first = 0; first < numbers.size(); ++first) {
+    L a;
+    for (int l = 0; l < L::width; ++l) a.lane[l] = numbers[(first + static_cast<std::size_t>(l)) % numbers.size()];
+    const L root = sqrt(a);
+    for (int l = 0; l < L::width; ++l) EXPECT_EQ(root.lane[l], std::sqrt(a.lane[l])) << a.lane[l];
+  }
+  EXPECT_TRUE(std::isnan(sqrt(L(T(-1))).lane[L::width - 1]));
+}
+
 // Against long double over sixty decades, at the ends of the mantissa and next to powers of eight.
 TYPED_TEST(LaneMath, InverseCubeRootIsAccurateToAFewUnitsInTheLastPlace) {
   using T = TypeParam;

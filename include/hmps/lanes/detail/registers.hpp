@@ -38,6 +38,23 @@ struct Register {
 #define HMPS_EACH_REGISTER                                                                       \
   _Pragma("GCC unroll 4") for (int l = 0; l < static_cast<int>(detail::lanes_bytes / sizeof(T)); \
                                l += detail::Register<T>::width)
+
+// The square root of a register. `std::sqrt` sets errno, so that compilers evaluate it lane by lane.
+#if defined(__clang__)
+#if __has_builtin(__builtin_elementwise_sqrt)
+#define HMPS_ROOT_OF_FLOATS(x) __builtin_elementwise_sqrt(x)
+#define HMPS_ROOT_OF_DOUBLES(x) __builtin_elementwise_sqrt(x)
+#endif
+#elif defined(__AVX512F__)  // 4: rounds as the current mode says
+#define HMPS_ROOT_OF_FLOATS(x) __builtin_ia32_sqrtps512_mask(x, x, static_cast<std::uint16_t>(-1), 4)
+#define HMPS_ROOT_OF_DOUBLES(x) __builtin_ia32_sqrtpd512_mask(x, x, static_cast<std::uint8_t>(-1), 4)
+#elif defined(__AVX2__)
+#define HMPS_ROOT_OF_FLOATS(x) __builtin_ia32_sqrtps256(x)
+#define HMPS_ROOT_OF_DOUBLES(x) __builtin_ia32_sqrtpd256(x)
+#elif defined(__SSE2__)
+#define HMPS_ROOT_OF_FLOATS(x) __builtin_ia32_sqrtps(x)
+#define HMPS_ROOT_OF_DOUBLES(x) __builtin_ia32_sqrtpd(x)
+#endif
 #endif
 
 /// Copies lanes through registers of the width that the next operation reads. A load that spans several narrower stores
