@@ -77,6 +77,13 @@ class StepCost {
   }
   /// (19, 20) in the first sweep: C = E d / tr A, M - C F, c + C.
   [[nodiscard]] Cost artificial() const { return {1 + 18 + 1, k}; }
+  /// The artificial tension. In the first sweep, per bond: r, |r|^2 and |F r0|^2, a quotient with a root, and its
+  /// product with r0 r0; per particle F^T F - 1 and F S A^-1. In the second, per bond: r, |r|^2, and for both ends
+  /// |F r0|^2 and the quotient.
+  [[nodiscard]] Cost tension() const {
+    return {36 + 90 + 9 + (19 + 16 + 6 + 18 + 19 + 2 * 22 + 8) * bonds_, 14 * k + 3 * k + bond_bytes_,
+            (3 + 3 + 7) * k * bonds_};
+  }
   /// Writes M and c; the second sweep reads them, with displacements and the stored sum of w r0. Per bond: c_i + c_j,
   /// its product with three differences, M r0, and the sum of all times w.
   [[nodiscard]] Cost couple() const {

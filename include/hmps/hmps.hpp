@@ -110,6 +110,8 @@
 #include "hmps/shapes/sweep.hpp"
 #include "hmps/shapes/triangle_tree.hpp"
 #include "hmps/terms/artificial.hpp"
+#include "hmps/terms/artificial_tension.hpp"
+#include "hmps/terms/bar_stabiliser.hpp"
 #include "hmps/terms/dead_load.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/gravity.hpp"

@@ -67,6 +67,16 @@ class ParticleState : public OneParticle {
     return sum;
   }
 
+  /// sum_j (|r_ij| - |F r0_ij|)^2 w_ij in m2, the part of `misfit` along the bonds, to first order.
+  [[nodiscard]] double length_misfit() const {
+    double sum = 0;
+    visit_bonds([&](const Vector<double, dimension>& r0, const Vector<double, dimension>& relative, double w) {
+      const double length = (r0 + relative).norm(), predicted = (deformation_gradient * r0).norm();
+      sum += w * (length - predicted) * (length - predicted);
+    });
+    return sum;
+  }
+
   /// theta of `MeanDilatation`. Throws `InputError` if the force has no term of the mean dilatation.
   [[nodiscard]] double mean_dilatation() const {
     detail::require(
@@ -109,7 +119,8 @@ template <class Term, Bonds B>
       sum += 0.5 * static_cast<double>(term.energy(BondState<double, D>(r0, relative, w)));
     });
   }
-  if constexpr (CouplingTerm<Term, K, D> || DilatationTerm<Term, K, D> || BodyForceTerm<Term, K, D>) {
+  if constexpr (CouplingTerm<Term, K, D> || DilatationTerm<Term, K, D> || LengthTerm<Term, K, D> ||
+                BodyForceTerm<Term, K, D>) {
     static_assert(
         requires {
           { term.energy(particle) } -> std::convertible_to<double>;

@@ -183,6 +183,17 @@ concept DilatationTerm = requires(const Term& term, const BlockOfParticles<K, D>
   { term.pressure(particles, theta) } -> std::convertible_to<Lanes<K>>;
 };
 
+/// A term that resists the difference between the length of a bond and those that the deformation gradients of its ends
+/// predict: `term.length_stiffness(particles)`, of a `BlockParameters`, is C of each particle in Pa/m2,
+///
+///     f_i = sum_j w_ij [ C_i (|r_ij| - |F_i r0_ij|) + C_j (|r_ij| - |F_j r0_ij|) ] r_ij / |r_ij|
+///
+/// and M += F S A^-1 with S = C sum (1 - |r| / |F r0|) w r0 (x) r0. Satisfied by `ArtificialTension`.
+template <class Term, class K, int D>
+concept LengthTerm = requires(const Term& term, const BlockParameters<K, D>& particles) {
+  { term.length_stiffness(particles) } -> std::convertible_to<Lanes<K>>;
+};
+
 /// A term that pulls along each bond: `term.tension(bond)`, of a `BondState`, is the force density in N/m3 that pulls
 /// the two ends together, negative if it pushes them apart,
 ///
@@ -211,11 +222,11 @@ concept BodyForceTerm = requires(const Term& term, const BlockParameters<K, D>& 
 /// `internal_force` calls both in the constructor. For `InternalForce::energy`, a `PairTerm` has `term.energy(bond)`,
 /// other terms `term.energy(particle)`: see `ForceEnergy`. For `InternalForce::cauchy_stresses`, a `CouplingTerm` needs
 /// `term.stress(particle)`, and a `DilatationTerm` `term.pressure(particle)`: see `ParticleState`. Models: the
-/// results of `elastic`, `artificial`, `viscous`, `mean_dilatation`, `gravity`, `dead_load` and `record`; a struct of
-/// your own.
+/// results of `elastic`, `artificial`, `artificial_tension`, `viscous`, `mean_dilatation`, `gravity`, `dead_load` and
+/// `record`; a struct of your own.
 template <class Term, class K, int D>
 concept ForceTerm = CouplingTerm<Term, K, D> || DampingTerm<Term, K, D> || DampingOfEachTerm<Term, K, D> ||
-    DilatationTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;
+    DilatationTerm<Term, K, D> || LengthTerm<Term, K, D> || PairTerm<Term, K, D> || BodyForceTerm<Term, K, D>;
 
 namespace detail {
 

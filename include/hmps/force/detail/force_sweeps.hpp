@@ -13,6 +13,7 @@
 #include "hmps/core/types.hpp"
 #include "hmps/core/view.hpp"
 #include "hmps/force/deformation_gradient.hpp"
+#include "hmps/force/detail/bond_lengths.hpp"
 #include "hmps/force/detail/parts_of_force.hpp"
 #include "hmps/lanes/detail/multiply_add.hpp"
 #include "hmps/lanes/detail/staging.hpp"
@@ -40,10 +41,11 @@ class ForceSweeps {
         displacement_(bonds.slot_count()),
         velocity_(bonds.slot_count()),
         coupling_(bonds.slot_count()),
+        lengths_(bonds.slot_count()),
         damping_each_(bonds.slot_count()),
         dilatation_(bonds.slot_count()),
         pressure_(bonds.slot_count()) {
-    std::apply([&](const auto&... term) { (check(term, bonds), ...); }, terms_);
+    std::apply([&](const auto&... term) { (detail::check_term(term, bonds), ...); }, terms_);
     if constexpr (damps) {
       double sum = 0;
       std::apply([&](const auto&... term) { (add_damping(term, bonds, sum), ...); }, terms_);
@@ -56,14 +58,15 @@ class ForceSweeps {
   /// The d of `MeanDilatation`; empty without such a term.
   [[nodiscard]] const auto& scales() const { return scales_; }
   [[nodiscard]] std::size_t bytes() const {
-    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + damping_each_.bytes() + dilatation_.bytes() +
-           pressure_.bytes() + scales_.bytes();
+    return displacement_.bytes() + velocity_.bytes() + coupling_.bytes() + lengths_.bytes() + damping_each_.bytes() +
+           dilatation_.bytes() + pressure_.bytes() + scales_.bytes();
   }
 
   /// Sets to zero what the sweeps wrote: blocks that are not evaluated from now on are read with a weight of zero,
   /// which does not remove a NaN.
   void forget(const B& bonds) {
     coupling_ = decltype(coupling_)(bonds.slot_count());
+    lengths_ = decltype(lengths_)(bonds.slot_count());
     dilatation_ = decltype(dilatation_)(bonds.slot_count());
     pressure_ = decltype(pressure_)(bonds.slot_count());
   }
@@ -132,6 +135,12 @@ class ForceSweeps {
       const Matrix<T, D> push = product(cofactor(F), inverse);
       for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += pressure * push(k % D, k / D);
     }
+    if constexpr (Parts::predicts) {
+      const PredictedLengths<T, D> own(F, detail::length_stiffness_of<K, D>(terms_, particles));
+      own.store(lengths_, slot);
+      const Matrix<T, D> push = product(product(F, detail::length_stress(bonds, block, displacement_, own)), inverse);
+      for (int k = 0; k < D * D; ++k) coupling.M(k % D, k / D) += push(k % D, k / D);
+    }
     // The last sweep works on displacements: c r_ij = c r0_ij + c (u_j - u_i).
     for (int d = 0; d < D; ++d) coupling.M(d, d) += coupling.c;
     for (int k = 0; k < D * D; ++k) coupling_.store(static_cast<std::size_t>(k), slot, coupling.M(k % D, k / D));
@@ -141,12 +150,12 @@ class ForceSweeps {
   /// The last sweep: the sum in `Coupling` over the bonds of the particles of `block`.
   template <class Take>
   void sum(const B& bonds, std::size_t block, const Take& take) const {
-    const std::size_t slot = block * B::width;
-    const std::size_t last = bonds.last_slot(block);
-    displacement_.prefetch(last + ahead);
-    velocity_.prefetch(last + ahead);
-    damping_each_.prefetch(last + ahead);
-    coupling_.prefetch(last + ahead);
+    const std::size_t slot = block * B::width, next = bonds.last_slot(block) + ahead;
+    displacement_.prefetch(next);
+    velocity_.prefetch(next);
+    damping_each_.prefetch(next);
+    coupling_.prefetch(next);
+    lengths_.prefetch(next);
     Vector<T, D> force, u, v, drag;
     T c(0);
     for (int d = 0; d < D; ++d) force[d] = drag[d] = T(0);
@@ -163,9 +172,12 @@ class ForceSweeps {
     if constexpr (damps)
       for (int d = 0; d < D; ++d) v[d] = velocity_.lanes(static_cast<std::size_t>(d), slot);
 
+    [[maybe_unused]] PredictedLengths<T, D> own;
+    if constexpr (Parts::predicts) own.load(lengths_, slot);
     bonds.for_each_row(block, [&](const auto& bond) HMPS_INLINE_LAMBDA {
       static_assert(RequireRow<std::remove_cvref_t<decltype(bond)>, B>::value);
       if constexpr (couples) add_coupled(bond, c, u, force);
+      if constexpr (Parts::predicts) detail::adjust_length(bond, displacement_, lengths_, u, own, force);
       if constexpr (Parts::pairs) pull(bond, u, force);
       if constexpr (damps) {
         const auto velocity = bond.gather(velocity_);
@@ -188,18 +200,6 @@ class ForceSweeps {
   }
 
  private:
-  template <class Term>
-  static void check(const Term& term, const B& bonds) {
-    if constexpr (requires { term.check(bonds.size()); }) term.check(bonds.size());
-    if constexpr (PairTerm<Term, K, D>) require_tensions(term, bonds);
-    if constexpr (requires(const BlockOfParticles<K, D>& particles) { term.check_parameters(particles); }) {
-      // Stretched and sheared by about a thousandth: every law responds, and none leaves its range.
-      Matrix<T, D> F;
-      for (int k = 0; k < D * D; ++k) F(k % D, k / D) = T(k % D == k / D ? K(1.001) : K(0.0002) * static_cast<K>(k));
-      for (std::size_t block = 0; block < bonds.block_count(); ++block)
-        term.check_parameters(BlockOfParticles<K, D>(bonds, block, F, bonds.shape_inverse_lanes(block)));
-    }
-  }
   template <class Term>
   static void add_damping(const Term& term, const B& bonds, double& sum) {
     if constexpr (DampingTerm<Term, K, D>) sum += term.damping(bonds);
@@ -291,6 +291,7 @@ class ForceSweeps {
   typename B::template Slots<std::size_t{Parts::displaces ? D : 0}> displacement_;
   typename B::template Slots<std::size_t{damps ? D : 0}> velocity_;
   typename B::template Slots<std::size_t{couples ? D * D + 1 : 0}> coupling_;                // M, c
+  typename B::template Slots<Parts::predicts ? PredictedLengths<T, D>::count : 0> lengths_;  // F^T F - 1, C
   typename B::template Slots<std::size_t{Parts::damps_each ? 1 : 0}> damping_each_;          // d
   typename B::template Slots<std::size_t{dilates ? 1 : 0}> dilatation_, pressure_, scales_;  // d (J - G), d U', d
   K damping_ = 0;

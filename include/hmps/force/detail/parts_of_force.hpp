@@ -31,7 +31,8 @@ struct RequireTerm {
                 "hmps: a law is not a term of internal_force; wrap it in one: hmps::elastic(law)");
   static_assert(IsTerm<Term, K, D>::value || is_law,
                 "hmps: a term of internal_force needs couple(particles, coupling), damping(bonds), damping(particles), "
-                "pressure(particles, theta), tension(bond) or body_force(particles), const; see ForceTerm");
+                "pressure(particles, theta), length_stiffness(particles), tension(bond) or body_force(particles), "
+                "const; see ForceTerm");
   static constexpr bool value = true;
 };
 template <class Term, class K, int D>
@@ -57,6 +58,18 @@ template <class K, int D, class G, class At, class... Terms>
   return growth;
 }
 
+/// The sum of the stiffnesses of all `LengthTerm`s.
+template <class K, int D, class... Terms>
+[[nodiscard]] HMPS_INLINE Lanes<K> length_stiffness_of(const std::tuple<Terms...>& terms,
+                                                       const BlockParameters<K, D>& particles) {
+  Lanes<K> sum(0);
+  const auto add = [&](const auto& term) HMPS_INLINE_LAMBDA {
+    if constexpr (LengthTerm<std::remove_cvref_t<decltype(term)>, K, D>) sum += term.length_stiffness(particles);
+  };
+  std::apply([&](const auto&... term) HMPS_INLINE_LAMBDA { (add(term), ...); }, terms);
+  return sum;
+}
+
 /// What a set of terms needs.
 template <class K, int D, class... Terms>
 struct PartsOfForce {
@@ -67,7 +80,8 @@ struct PartsOfForce {
   static_assert(!(GrowingTerm<Terms, K, D> || ...) || (0 + ... + int(DilatationTerm<Terms, K, D>)) == 1,
                 "hmps: the mean dilatation of tissue that grows must be the only term of the mean dilatation in its "
                 "force; add the bulk moduli");
-  static constexpr bool couples = dilates || (CouplingTerm<Terms, K, D> || ...);
+  static constexpr bool predicts = (LengthTerm<Terms, K, D> || ...);
+  static constexpr bool couples = dilates || predicts || (CouplingTerm<Terms, K, D> || ...);
   static constexpr bool pairs = (PairTerm<Terms, K, D> || ...);
   static constexpr bool displaces = couples || pairs;
   static constexpr bool damps_each = (DampingOfEachTerm<Terms, K, D> || ...);
@@ -107,6 +121,23 @@ HMPS_COLD void require_tensions(const Term& term, const B& bonds) {
                 "tension must be proportional to bond.weight()");
       }
     });
+}
+
+/// Checks the views of `term` and the values that they have now. Throws `InputError` as `internal_force` says.
+template <class Term, Bonds B>
+void check_term(const Term& term, const B& bonds) {
+  using K = typename B::Scalar;
+  constexpr int D = B::dimension;
+  if constexpr (requires { term.check(bonds.size()); }) term.check(bonds.size());
+  if constexpr (PairTerm<Term, K, D>) require_tensions(term, bonds);
+  if constexpr (requires(const BlockOfParticles<K, D>& particles) { term.check_parameters(particles); }) {
+    // Stretched and sheared by about a thousandth: every law responds, and none leaves its range.
+    Matrix<Lanes<K>, D> F;
+    for (int k = 0; k < D * D; ++k)
+      F(k % D, k / D) = Lanes<K>(k % D == k / D ? K(1.001) : K(0.0002) * static_cast<K>(k));
+    for (std::size_t block = 0; block < bonds.block_count(); ++block)
+      term.check_parameters(BlockOfParticles<K, D>(bonds, block, F, bonds.shape_inverse_lanes(block)));
+  }
 }
 
 }  // namespace hmps::inline HMPS_ABI::detail
