@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 
 #include <hmps/core/error.hpp>
 
@@ -55,7 +56,17 @@ std::vector<Placement> any_placements(int count, double spacing) {
 }
 
 std::string name(Choice choice) {
-  return choice == Choice::waves ? "4/3 mu" : choice == Choice::sheet ? "sheet_stabiliser" : "thin_wall_stabiliser";
+  switch (choice) {
+    case Choice::waves:
+      return "4/3 mu";
+    case Choice::sheet:
+      return "sheet_stabiliser";
+    case Choice::thin_wall:
+      return "thin_wall_stabiliser";
+    case Choice::bar:
+      return "bar_stabiliser";
+  }
+  throw std::logic_error("a choice of stabiliser without a name");
 }
 
 FittedBody::FittedBody(double spacing, const std::vector<Piece>& pieces, Choice choice, int layers,
@@ -76,6 +87,10 @@ FittedBody::FittedBody(double spacing, const std::vector<Piece>& pieces, Choice 
   if (choice == Choice::thin_wall) {
     chosen_ = scenes::stabiliser_of(scenes::joined(pieces), spacing, material);
     internal_ = scenes::thin_wall_force(*bonds_, material, chosen_);
+  } else if (choice == Choice::bar) {
+    const auto [modulus, tension] = hmps::bar_stabiliser(shear);
+    internal_ =
+        hmps::internal_force(*bonds_, hmps::elastic(law), hmps::artificial(modulus), hmps::artificial_tension(tension));
   } else if (even.bulk.mean > 0) {
     internal_ = hmps::internal_force(*bonds_, hmps::elastic(law), hmps::mean_dilatation(even.bulk.mean),
                                      hmps::artificial(even.modulus));

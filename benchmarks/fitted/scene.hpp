@@ -64,6 +64,7 @@ enum class Choice {
   waves,      // E_hat = 4/3 mu
   sheet,      // sheet_stabiliser
   thin_wall,  // thin_wall_stabiliser
+  bar,        // bar_stabiliser
 };
 [[nodiscard]] std::string name(Choice choice);
 
@@ -141,6 +142,7 @@ struct Comparison {
 [[nodiscard]] report::Table half_cylinder(bool quick);  ///< shells.cpp
 [[nodiscard]] report::Table half_ball(bool quick);
 [[nodiscard]] report::Table twisted_strip(bool quick, bool own_volumes);  ///< clamped.cpp
+[[nodiscard]] report::Table twisted_wide_strip(bool quick);
 [[nodiscard]] report::Table wedge(bool quick);
 [[nodiscard]] report::Table junction(bool quick);
 [[nodiscard]] report::Table leaf(bool quick);          ///< leaf.cpp

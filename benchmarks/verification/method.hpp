@@ -18,6 +18,7 @@ struct Method {
   double over_shear = 0;         ///< E_hat over the shear modulus; 0: the paper's choice, Young's modulus
   int held = 1;                  ///< layers of held particles beyond a fixed face
   bool mean_dilatation = false;  ///< whether the bulk modulus is split by `split_bulk_modulus`
+  double tension = 0;            ///< modulus of the artificial tension over the shear modulus
 };
 
 inline const Method paper{.name = "E_hat = E"};
@@ -27,6 +28,13 @@ inline const Method two_layers{
 inline const Method mean_dilatation{
     .name = "E_hat = 4/3 mu, mean dilatation", .over_shear = hmps::shear_wave_modulus(1.0), .mean_dilatation = true};
 inline const Method soft{.name = "E_hat = mu, mean dilatation", .over_shear = 1, .mean_dilatation = true};
+inline const Method bar{.name = "bar_stabiliser",
+                        .over_shear = hmps::bar_stabiliser(1.0).modulus,
+                        .tension = hmps::bar_stabiliser(1.0).tension};
+inline const Method bar_mean_dilatation{.name = "bar_stabiliser, mean dilatation",
+                                        .over_shear = bar.over_shear,
+                                        .mean_dilatation = true,
+                                        .tension = bar.tension};
 /// The variants that differ from each other in a problem, which depends on whether a face is fixed and whether the bulk
 /// modulus is high.
 inline const std::vector<Method> methods{paper, shear_wave};
@@ -78,18 +86,23 @@ template <int D>
 template <hmps::Bonds B, class Law, class Use>
 decltype(auto) with_force(const Method& method, const hmps::MatrixView<double, B::dimension>& F, const B& bonds,
                           const Law& law, Use&& use) {
+  const auto stabilised = [&](const auto&... elasticity) -> decltype(auto) {
+    const auto artificial = hmps::artificial(modulus_of(method, law));
+    if (method.tension > 0) {
+      const auto tension = hmps::artificial_tension(method.tension * law.shear_modulus());
+      auto force = hmps::internal_force(bonds, elasticity..., artificial, tension, hmps::record(F));
+      return std::forward<Use>(use)(force);
+    }
+    auto force = hmps::internal_force(bonds, elasticity..., artificial, hmps::record(F));
+    return std::forward<Use>(use)(force);
+  };
   if constexpr (requires { with_bulk_modulus(law, 1.0); }) {
     if (method.mean_dilatation) {
       const auto share = hmps::split_bulk_modulus(law.bulk_modulus(), law.shear_modulus());
-      auto force = hmps::internal_force(bonds, hmps::elastic(with_bulk_modulus(law, share.law)),
-                                        hmps::artificial(modulus_of(method, law)), hmps::mean_dilatation(share.mean),
-                                        hmps::record(F));
-      return std::forward<Use>(use)(force);
+      return stabilised(hmps::elastic(with_bulk_modulus(law, share.law)), hmps::mean_dilatation(share.mean));
     }
   }
-  auto force =
-      hmps::internal_force(bonds, hmps::elastic(law), hmps::artificial(modulus_of(method, law)), hmps::record(F));
-  return std::forward<Use>(use)(force);
+  return stabilised(hmps::elastic(law));
 }
 
 /// Brings the particles of `body` for which `moves(i)` holds to rest under `force(x, v, f)`, until the unbalanced

@@ -72,7 +72,7 @@ Problem torsion() {
                       .source = "exact"}},
       .across = "cells across the diameter",
       .sizes = {5, 6, 7, 8, 9, 10, 12, 14, 16},
-      .methods = bulky_methods,
+      .methods = {paper, shear_wave, mean_dilatation, bar_mean_dilatation},
       .run = wring,
       .remark =
           "The cross-section with steps is not a disc: its corners carry little shear, so its moment lies a little "

@@ -197,11 +197,11 @@ def half_ball(n):
     return Body(mesh, held, pattern, 10000)
 
 
-def strip(n):
+def strip(n, length=72e-3, width=18e-3, bricks=(12, 3)):
     """A strip of 72 x 18 mm along x and y whose ends are clamped; one is turned by 0.02 about x."""
-    length, width, angle = 72e-3, 18e-3, 0.02
+    angle = 0.02
     mesh = Mesh()
-    mesh.block((12 * n, 3 * n, n), box((-length / 2, -width / 2, -WALL / 2), (length / 2, width / 2, WALL / 2)),
+    mesh.block((bricks[0] * n, bricks[1] * n, n), box((-length / 2, -width / 2, -WALL / 2), (length / 2, width / 2, WALL / 2)),
                [to_both] * 3)
 
     def held(x):
@@ -212,6 +212,11 @@ def strip(n):
         return []
 
     return Body(mesh, held)
+
+
+def wide_strip(n):
+    """The same with 144 x 54 mm."""
+    return strip(n, 144e-3, 54e-3, (12, 5))
 
 
 def wedge(n):
@@ -358,8 +363,8 @@ def answer(body, forces, squares, displacements, reactions):
 
 
 def main():
-    bodies = {"half_cylinder": half_cylinder, "half_ball": half_ball, "strip": strip, "wedge": wedge,
-              "junction": junction, "leaf": leaf}
+    bodies = {"half_cylinder": half_cylinder, "half_ball": half_ball, "strip": strip, "wide_strip": wide_strip,
+              "wedge": wedge, "junction": junction, "leaf": leaf}
     if len(sys.argv) < 3 or sys.argv[1] not in bodies:
         sys.exit(f"usage: bodies.py {'|'.join(bodies)} REFINEMENT...")
     for n in map(int, sys.argv[2:]):
