@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hmps/particles/surface_lattice.hpp"
+#include "hmps/shapes/solid_surfaces.hpp"
 #include "hmps/shapes/surfaces.hpp"
 
 namespace patch_pressure_test {
@@ -152,6 +154,66 @@ TEST(PatchPressure, OnAPatchThatFacesTheBodyIsRefused) {
   EXPECT_NO_THROW(PatchPressure(vectors(points), patch, l0));
   for (auto& t : patch.triangles) std::swap(t[1], t[2]);
   EXPECT_THROW(PatchPressure(vectors(points), patch, l0), InputError);
+}
+
+SurfaceMesh<double> top_of(const Body& body, double shift) {
+  auto top = surface_patch(body.mesh, [](const V&, const V& normal) { return normal[2] > 0.5; });
+  for (V& corner : top.vertices) corner[2] += shift;
+  return top;
+}
+
+// Two spacings outside, relax ended in NaN; inside, the force was wrong by a sixth.
+TEST(PatchPressure, RefusesAPatchOutsideOrInsideTheBody) {
+  const Body body = brick();
+  for (const double shift : {2., 3., 5.}) {
+    const auto said = said_of([&] { (void)PatchPressure(vectors(body.x), top_of(body, shift * l0), l0); });
+    EXPECT_NE(said.find("a patch of"), std::string::npos) << said;
+    EXPECT_NE(said.find("lies outside the body"), std::string::npos) << said;
+    EXPECT_NE(said.find("at the same place"), std::string::npos) << said;
+  }
+  for (const double shift : {-2., -2.5, -3., -5.}) {
+    const auto said = said_of([&] { (void)PatchPressure(vectors(body.x), top_of(body, shift * l0), l0); });
+    EXPECT_NE(said.find("lies inside the body"), std::string::npos) << shift << ' ' << said;
+  }
+  const auto outside = said_of([&] { (void)PatchPressure(vectors(body.x), top_of(body, 2 * l0), l0); });
+  EXPECT_NE(outside.find("2.5"), std::string::npos) << outside;
+  const auto inside = said_of([&] { (void)PatchPressure(vectors(body.x), top_of(body, -2 * l0), l0); });
+  EXPECT_NE(inside.find("reach 0.003 m ahead of it, 1.5 spacings"), std::string::npos) << inside;
+}
+
+TEST(PatchPressure, TakesAPatchUpToASpacingFromTheSurface) {
+  const Body body = brick();
+  for (const double shift : {-1., -0.5, 0., 0.5, 1.})
+    EXPECT_NO_THROW(PatchPressure(vectors(body.x), top_of(body, shift * l0), l0)) << shift;
+}
+
+// Whatever the number of layers: a sheet of four has two of them ahead of its middle surface.
+TEST(PatchPressure, TakesTheMiddleSurfaceOfASheet) {
+  for (const int layers : {2, 3, 4, 5}) {
+    const Body sheet(hmps_test::box_surface<double>(V(0, 0, 0), V(0.016, 0.016, layers * l0)));
+    EXPECT_NO_THROW(PatchPressure(vectors(sheet.x), top_of(sheet, -0.5 * layers * l0), l0)) << layers;
+  }
+}
+
+// The particles across a narrow bore are not the body ahead of its wall.
+TEST(PatchPressure, TakesTheWallOfANarrowBore) {
+  const double inner = 1.2 * l0, outer = 4.2 * l0, length = 8 * l0;
+  const Body tube(revolved_surface<double>({{inner, 0}, {outer, 0}, {outer, length}, {inner, length}}, 32));
+  const auto bore = surface_patch(tube.mesh, [&](const V& at, const V& normal) {
+    return std::abs(normal[2]) < 0.5 && at.head<2>().norm() < 2 * l0;
+  });
+  EXPECT_NO_THROW(PatchPressure(vectors(tube.x), bore, l0));
+}
+
+// `refine` asked for a larger length instead.
+TEST(PatchPressure, AsksForTheUnitOfAPatchInMillimetres) {
+  const Body body = brick();
+  auto top = top_of(body, 0);
+  for (V& corner : top.vertices) corner *= 1000;
+  const auto said = said_of([&] { (void)PatchPressure(vectors(body.x), top, l0); });
+  EXPECT_NE(said.find("is 16 m large"), std::string::npos) << said;
+  EXPECT_NE(said.find("which reach over 0.02 m"), std::string::npos) << said;
+  EXPECT_NE(said.find("a scale of 1e-3"), std::string::npos) << said;
 }
 
 }  // namespace patch_pressure_test
