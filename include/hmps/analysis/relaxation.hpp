@@ -58,8 +58,9 @@ namespace hmps::inline HMPS_ABI {
 /// anything. Throws `StateError` if a force is not finite, if the unbalanced forces no longer decrease, after
 /// `max_iterations`, and if nothing holds the body: once a net force has moved it by three times its size, or a net
 /// moment has turned it by a whole turn, without having changed in size. The message then names both: hold some
-/// particles, or subtract the mean force, and the moment, as for a free body under `Pressure`. The state is the last
-/// one reached.
+/// particles, or subtract the mean force, and the moment, as for a free body under `Pressure`. After `max_iterations`
+/// it also says if the body has moved as a whole, which a net force below the tolerance does to a body that is free to
+/// slide or roll. The state is the last one reached.
 template <class Force, class X, class V, class F, int D, PerParticle Rho, Executor E = Serial>
 Relaxation relax(Force&& force, const VectorView<X, D>& x, const VectorView<V, D>& v, const VectorView<F, D>& f,
                  const Rho& rho, const RelaxationSettings& settings, const E& execute = {}) {

@@ -63,14 +63,15 @@ inline void validate(const RelaxationSettings& s) {
   throw StateError(message("hmps: after ", result.iterations, " iterations of relax, particles have flown ", path,
                            " m without stopping, ten times the size of the body: nothing holds it; ",
                            whole.empty() ? "does `moves` exclude the particles that are held, and does the load press "
-                                           "it against something?"
+                                           "it against something? If both are so, the load may exceed what the body "
+                                           "can carry: give a smaller one, or increase it in parts"
                                          : whole + ": hold some particles, or subtract the mean force, and the moment, "
                                                    "from the forces"));
 }
 
-/// `stalled`: more iterations do not help. `whole` as for `throw_flown`.
+/// `stalled`: more iterations do not help. `whole` as for `throw_flown`, `drift` as `MotionAsAWhole::remark`.
 [[noreturn]] inline void throw_not_at_rest(const Relaxation& result, const RelaxationSettings& settings, bool damped,
-                                           bool stalled, const std::string& whole) {
+                                           bool stalled, const std::string& whole, const std::string& drift) {
   const std::string begin =
       message("hmps: relax made ", result.iterations, " iterations and the unbalanced forces are still ",
               result.residual, " of the load, ", result.load, " N; ");
@@ -80,6 +81,13 @@ inline void validate(const RelaxationSettings& s) {
                              ": unless something else holds the body it cannot come to rest; hold some "
                              "particles, or subtract the mean force, and the moment, from the forces; otherwise allow "
                              "more max_iterations than ",
+                             settings.max_iterations, end));
+  if (!drift.empty())
+    throw StateError(message(begin, drift,
+                             ": if it is free to slide or turn, hold some particles along that direction by "
+                             "`moves` or `moves_along`, or subtract the mean force, and the moment, from the forces: "
+                             "even one below the tolerance moves a free body; otherwise allow more max_iterations "
+                             "than ",
                              settings.max_iterations, end));
   throw StateError(message(
       begin,

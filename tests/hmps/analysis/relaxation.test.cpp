@@ -708,6 +708,48 @@ TEST(Relax, LetsAFreeBodyFallOnAFloor) {
   EXPECT_NEAR(body.position[0][1], floor, 0.01 * l0);
 }
 
+// A force below the tolerance moves it, while something keeps the forces from balancing: here a pair of forces that
+// turns at each evaluation. Earlier, the message spoke of float and the tolerance only.
+TEST(Relax, SaysThatABodyThatDoesNotComeToRestMovesAsAWhole) {
+  Standing<double, 2> body(column<2>(3, 6));
+  auto internal = internal_force(body.bonds, elastic(linear), artificial(young));
+  const double pull = 2000;  // N/m3
+  int calls = 0;
+  const auto force = [&](const auto& x, const auto& v, const auto& f) {
+    internal(x, v, f);
+    ++calls;
+    const Vector<double, 2> pair = 20 * pull * Vector<double, 2>(std::cos(calls * calls), std::sin(calls * calls));
+    for (std::size_t i = 0; i < x.size(); ++i) f.add(i, Vector<double, 2>(pull, 0));
+    f.add(0, Vector<double, 2>(-pair));
+    f.add(1, pair);
+  };
+  const double net = 18 * pull * body.volume;
+  const RelaxationSettings settings{.spacing = l0,
+                                    .load = 1.1e3 * net,
+                                    .max_iterations = 5000,
+                                    .step = 2e-4,
+                                    .moves_along = [](std::size_t i, int c) { return c == 0 || i != 3; }};
+  const std::string words = words_of([&] { (void)relax(force, body.x(), body.v(), body.f(), density, settings); });
+  EXPECT_TRUE(has(words, "since iteration 2500 the body has moved as a whole")) << words;
+  EXPECT_TRUE(has(words, "hold some particles along that direction")) << words;
+  EXPECT_TRUE(has(words, "otherwise allow more max_iterations than 5000")) << words;
+}
+
+// Beyond its limit load a held body yields without end.
+TEST(Relax, AsksWhetherTheLoadExceedsWhatTheBodyCarries) {
+  std::vector<Vector<double, 2>> x{{0, 0}, {0, l0}}, v(2), f(2);
+  const auto pull = [](const auto&, const auto&, const auto& out) {
+    for (std::size_t i = 0; i < 2; ++i) out.set(i, Vector<double, 2>(0, 100));
+  };
+  const std::string words = words_of([&] {
+    (void)relax(
+        pull, vectors(x), vectors(v), vectors(f), density,
+        {.spacing = l0, .tolerance = 1e-9, .load = 1, .step = 1e-3, .moves = [](std::size_t i) { return i == 1; }});
+  });
+  EXPECT_TRUE(has(words, "particles have flown")) << words;
+  EXPECT_TRUE(has(words, "the load may exceed what the body can carry")) << words;
+}
+
 TEST(Relax, BadInputIsRefused) {
   Standing<double, 2> body(column<2>(2, 3));
   std::vector<Vector<double, 2>> few(2);

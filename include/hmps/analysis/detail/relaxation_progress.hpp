@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hmps/analysis/detail/motion_as_a_whole.hpp"
 #include "hmps/analysis/detail/relaxing_body.hpp"
 #include "hmps/analysis/relaxation_settings.hpp"
 #include "hmps/core/abi.hpp"
@@ -137,15 +138,22 @@ template <class Body, int D = Body::dimension>
 class RelaxationProgress {
  public:
   RelaxationProgress(const Body& body, const RelaxationSettings& settings)
-      : settings_(settings), furthest_(10 * (body.extent() + settings.spacing)), motion_(body, settings) {}
+      : settings_(settings),
+        furthest_(10 * (body.extent() + settings.spacing)),
+        motion_(body, settings),
+        second_half_(body) {}
 
   /// Throws `StateError` if the search stalls or has made all permitted iterations, or if the body flies away:
   /// `flown` is the path in m of its fastest particles since the last stop. Where damping limits the step, a body moves
   /// for long without less unbalance, so that no stall shows.
   void require(const Relaxation& now, bool damped, double flown) {
     const bool stalled = stalling_.update(now) && !damped;
+    if (!halved_ && now.iterations >= settings_.max_iterations / 2) {
+      halved_ = true;
+      second_half_.start(now.iterations);
+    }
     if (stalled || now.iterations >= settings_.max_iterations)
-      throw_not_at_rest(now, settings_, damped, stalled, motion_.remark(now));
+      throw_not_at_rest(now, settings_, damped, stalled, motion_.remark(now), second_half_.remark(settings_.spacing));
     motion_.require_held(now);
     if (flown > furthest_) throw_flown(now, flown, motion_.remark(now));
   }
@@ -155,6 +163,8 @@ class RelaxationProgress {
   double furthest_;  // m
   Stalling stalling_;
   FreeMotion<Body, D> motion_;
+  MotionAsAWhole<Body, D> second_half_;  // of the permitted iterations
+  bool halved_ = false;
 };
 
 }  // namespace hmps::inline HMPS_ABI::detail
