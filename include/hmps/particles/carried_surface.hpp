@@ -58,8 +58,8 @@ class CarriedSurface {
   /// @param spacing    l0 in m
   /// @param belongs    `belongs(i)`: whether particle i belongs to the body that carries the points; by default all do
   /// Throws `InputError` for a spacing that is not positive or far above that of the particles, a set `belongs` of
-  /// another scene, positions that are not finite, no particles, and a point that lies further than 8 spacings from
-  /// particles that span space, with its position.
+  /// another scene, positions that are not finite, no particles, and, with its position, a point whose radius would
+  /// exceed 8 spacings: one more than about 6 spacings from a thick body, and one beside a single flat layer.
   template <class T, class P, class Belongs = bool (*)(std::size_t), Executor E = Serial>
   CarriedSurface(
       const VectorView<T, D>& reference, const VectorView<P, D>& points, double spacing,
@@ -153,8 +153,12 @@ class CarriedSurface {
     }
     const std::string hint = detail::spacing_hint(search.points(), spacing, 0.5);
     detail::throw_input_error(
-        {"hmps: point ", p, " of a carried surface, at (", point, "), lies further than 8 spacings of ", spacing,
-         " m from particles that span space; check that surface and particles belong to one body and "
+        {"hmps: point ", p, " of a carried surface, at (", point,
+         "), lies too far from the particles: those within 8 "
+         "spacings of ",
+         spacing,
+         " m, weighted by their distance, are too few or do not span space; check that surface and particles belong to "
+         "one body and "
          "are in the same unit: a wall of one layer carries no surface, nor does a part that "
          "supported_particles or `belongs` left out",
          hint});

@@ -149,6 +149,22 @@ TEST(CarriedSurface, RejectsPointsThatNothingCarries) {
             0u);
 }
 
+// Earlier, the error said that such a point lies further than 8 spacings from the particles, which have a layer at 6.5.
+TEST(CarriedSurface, SaysWhatIsMissingAroundAPointThatNothingCarries) {
+  std::vector<V> block;
+  for (int i = 0; i < 13; ++i)
+    for (int j = 0; j < 13; ++j)
+      for (int k = 0; k < 4; ++k) block.push_back(l0 * V(i - 6, j - 6, -k));
+  const auto at = [&](double height) {
+    std::vector<V> point{V(0, 0, height * l0)};
+    (void)CarriedSurface(vectors(block), vectors(point), l0);
+  };
+  EXPECT_NO_THROW(at(6));
+  const std::string words = hmps_test::message_of([&] { at(6.7); });
+  EXPECT_NE(words.find("those within 8 spacings of"), std::string::npos) << words;
+  EXPECT_NE(words.find("do not span space"), std::string::npos) << words;
+}
+
 TEST(CarriedSurface, RejectsOutputOverItsInput) {
   // As many points as particles, so that the sizes are right.
   Ball ball;
