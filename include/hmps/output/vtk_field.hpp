@@ -13,6 +13,7 @@
 #include "hmps/core/abi.hpp"
 #include "hmps/core/detail/finite.hpp"
 #include "hmps/core/error.hpp"
+#include "hmps/core/particle_set.hpp"
 #include "hmps/core/view.hpp"
 
 namespace hmps::inline HMPS_ABI {
@@ -87,6 +88,12 @@ template <class Real = float, class T>
   } else {
     return detail::collect<Real>(std::move(name), view.size(), 1, [&](std::size_t i, int) { return view[i]; });
   }
+}
+
+/// A set of particles as a field called `name`, 1 for those in it and 0 for the others: `vtk_field("held", base)`.
+[[nodiscard]] inline VtkField vtk_field(std::string name, const ParticleSet& set) {
+  return detail::collect<std::uint8_t>(std::move(name), set.scene_size(), 1,
+                                       [&](std::size_t i, int) { return set(i); });
 }
 
 /// A vector per particle as a field called `name`: `vtk_field("velocity", vectors(v))`. In two dimensions the third

@@ -42,6 +42,14 @@ TEST(VtkField, RefusesWhatOverflowsAndKeepsWhatIsNotFinite) {
   EXPECT_EQ(written[1], -infinity);
 }
 
+TEST(VtkField, HoldsASetOfParticles) {
+  const ParticleSet held(3, std::vector<Index>{0, 2});
+  const VtkField field = vtk_field("held", held);
+  EXPECT_EQ(field.name, "held");
+  EXPECT_EQ(field.type, "UInt8");
+  EXPECT_EQ(numbers<std::uint8_t>(field), (std::vector<std::uint8_t>{1, 0, 1}));
+}
+
 TEST(VtkField, HoldsWholeNumbersThatFit) {
   std::vector<std::uint8_t> organ{0, 255};
   EXPECT_EQ(vtk_field("organ", scalars(organ)).type, "Int32");
