@@ -207,10 +207,18 @@ class ProbedScene {
       image[i] = (minus_[i].template cast<double>() - plus_[i].template cast<double>()) / (2 * h * root_density_[i]);
     });
     if (detail::is_finite(dot(image, image))) return;
-    for (std::size_t i = 0; i < size_; ++i)
-      if (!detail::is_finite(image[i].squaredNorm()))
-        throw StateError(message("hmps: ", caller_, " finds a force on particle ", i, " that is not finite, ", plus_[i],
-                                 " N/m3; check its det F, x, v and the parameters of its law"));
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (const State* force : {&plus_, &minus_})
+        if (!all_finite((*force)[i]))
+          throw StateError(message("hmps: ", caller_, " finds a force on particle ", i, " that is not finite, ",
+                                   (*force)[i], " N/m3; check its det F, x, v and the parameters of its law"));
+      require(is_finite(image[i].squaredNorm()), "hmps: ", caller_, " finds a stiffness at particle ", i,
+              ", whose density is ", root_density_[i] * root_density_[i], " kg/m3 and whose force is ", plus_[i],
+              " N/m3, that is too large for a number; check the density and the force");
+    }
+    throw_input_error({"hmps: ", caller_,
+                       " finds a stiffness whose squares sum to more than a number can hold; check "
+                       "the densities and the force"});
   }
 
   const char* caller_;

@@ -65,6 +65,8 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
                   "; give the result of stable_step");
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
+  require_finite(x, "the position");
+  require_finite(v, "the velocity");
   detail::require_spacing_of(x, settings.spacing, "step_causes", detail::most_compressed);
   std::vector<StepCause> causes;
   if (!detail::is_finite(found.limit)) return causes;

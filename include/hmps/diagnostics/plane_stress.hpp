@@ -108,7 +108,7 @@ template <class Law, int D>
 /// Throws `InputError` for views of different sizes, a normal of another length, a deformation gradient that is not
 /// finite or that nothing has written, and as `cauchy_stresses` does for the material; and `StateError`, naming the
 /// particle, if no stretch across the wall between a hundredth and a hundred times its reference volume leaves it
-/// without stress. F is unchanged then.
+/// without stress, or if the particle is turned inside out (det F < 0). F is unchanged then.
 template <class T, int D, class Material, class N, Executor E = Serial>
 void impose_plane_stress(const MatrixView<T, D>& F, const Material& material, const VectorView<N, D>& normals,
                          const E& execute = {}) {
@@ -132,18 +132,23 @@ void impose_plane_stress(const MatrixView<T, D>& F, const Material& material, co
     if (normal.isZero(0)) return;
     const auto law = detail::value_at(material, OneParticle{i});
     const detail::StressAcross stress(law, across[i], Vector<double, D>(normal.normalized()));
-    const std::optional<double> stretch = detail::without_stress(stress);
+    // A particle that is turned inside out would be turned back, through a state without volume.
+    const std::optional<double> stretch = determinant(across[i]) < 0 ? std::nullopt : detail::without_stress(stress);
     if (stretch)
       across[i] = stress.gradient(*stretch);
     else
       failed[i] = 1;
   });
-  for (std::size_t i = 0; i < F.size(); ++i)
-    if (failed[i])
-      throw StateError(detail::message("hmps: no stretch of the wall across itself leaves particle ", i,
-                                       " without stress there; its determinant is ",
-                                       determinant(Matrix<double, D>(F[i].template cast<double>())),
-                                       ": give it the normal zero if it is not part of a thin wall"));
+  for (std::size_t i = 0; i < F.size(); ++i) {
+    if (!failed[i]) continue;
+    const double J = determinant(Matrix<double, D>(F[i].template cast<double>()));
+    if (J < 0)
+      throw StateError(detail::message("hmps: particle ", i, " of a wall is turned inside out: its determinant is ", J,
+                                       "; use a smaller step, or give it the normal zero"));
+    throw StateError(detail::message("hmps: no stretch of the wall across itself leaves particle ", i,
+                                     " without stress there; its determinant is ", J,
+                                     ": give it the normal zero if it is not part of a thin wall"));
+  }
   for (std::size_t i = 0; i < F.size(); ++i) F.set(i, across[i]);
 }
 

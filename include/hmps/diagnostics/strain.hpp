@@ -12,6 +12,7 @@
 #include "hmps/core/view.hpp"
 #include "hmps/core/view_checks.hpp"
 #include "hmps/diagnostics/detail/recorded.hpp"
+#include "hmps/force/detail/force_stress.hpp"
 
 /// Strain for output, from deformation gradients: for one particle, and in the plural for all particles.
 /// References: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed. 2008, chapter 4;
@@ -41,7 +42,7 @@ template <class T, int D>
 
 /// Writes the Green-Lagrange strain of every particle, column-major, computed in double precision. Throws `InputError`
 /// for views of different sizes, and, naming the particle, for a deformation gradient that is not finite or that
-/// nothing has written.
+/// nothing has written; and `StateError`, naming the particle, if a strain is not finite.
 template <class T, int D, class R, Executor E = Serial>
 void green_lagrange_strains(const MatrixView<T, D>& F, const MatrixView<R, D>& strain, const E& execute = {}) {
   require_finite(F, "the deformation gradient");
@@ -52,6 +53,7 @@ void green_lagrange_strains(const MatrixView<T, D>& F, const MatrixView<R, D>& s
     const Matrix<double, D> gradient = F[i].template cast<double>();
     strain.set(i, green_lagrange_strain(gradient));
   });
+  detail::require_finite_result<D>(strain, F, "Green-Lagrange strain");
 }
 
 /// Writes the principal stretches of every particle, the largest first, computed in double precision. Throws as
@@ -66,6 +68,7 @@ void principal_stretches(const MatrixView<T, D>& F, const VectorView<R, D>& stre
     const Matrix<double, D> gradient = F[i].template cast<double>();
     stretches.set(i, principal_stretches(gradient));
   });
+  detail::require_finite_result<D>(stretches, F, "vector of principal stretches");
 }
 
 }  // namespace hmps::inline HMPS_ABI

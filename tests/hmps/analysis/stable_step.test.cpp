@@ -345,6 +345,27 @@ TEST(StableStep, BadInputIsRefused) {
   }
 }
 
+// Earlier, the error said that a finite force is not finite.
+TEST(StableStep, NamesDensitiesAndModesThatAreTooSmallOrTooLarge) {
+  std::vector<Vector<double, 3>> x{{0, 0, 0}, {1e-3, 0, 0}};
+  const std::vector<Vector<double, 3>> v(2, Vector<double, 3>::Zero());
+  const auto springs = [&](const auto& at, const auto&, const auto& f) {
+    for (std::size_t i = 0; i < 2; ++i) f.set(i, Vector<double, 3>(-1e6 * (at[i] - x[i])));
+  };
+  const auto said = [&](double density, const StableStepSettings& settings) {
+    try {
+      (void)stable_step(springs, vectors(x), vectors(v), density, settings);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const std::string light = said(1e-300, {.spacing = 1e-3});
+  EXPECT_NE(light.find("a stiffness at particle 0, whose density is 1e-300 kg/m3"), std::string::npos) << light;
+  const std::string large = said(1000, {.spacing = 1e-3, .start = std::vector<double>(6, 1e300)});
+  EXPECT_NE(large.find("number 0 of the mode that stable_step starts from is 1e+300"), std::string::npos) << large;
+}
+
 TEST(StableStep, RefusesAnEmptyFunction) {
   const std::vector<Vector<double, 2>> x{{0, 0}, {1e-3, 0}}, v(2, Vector<double, 2>::Zero());
   ForceFunction<double, 2> force;

@@ -127,6 +127,27 @@ TEST(StepCauses, BadInputIsRejectedAndNoLimitHasNoCause) {
 }
 
 // It makes trial displacements a thousand times as large.
+// Earlier, velocities that are NaN passed, and a position that is NaN was blamed on particle 0.
+TEST(StepCausesMisuse, NamesTheParticleWhosePositionOrVelocityIsNotFinite) {
+  Cube cube(0, 0, 1e9);
+  const StableStep found =
+      stable_step(cube.wall, vectors(cube.reference), vectors(cube.v), density, {.spacing = spacing});
+  const auto said = [&] {
+    try {
+      (void)step_causes(found, vectors(cube.reference), vectors(cube.v), density, {.spacing = spacing},
+                        NamedForce{"wall", cube.wall});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  cube.v[3][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(said().find("velocity of particle 3"), std::string::npos) << said();
+  cube.v[3][1] = 0;
+  cube.reference[3][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(said().find("position of particle 3"), std::string::npos) << said();
+}
+
 TEST(StepCausesMisuse, ASpacingInMillimetresIsRefused) {
   Cube cube(5e3, 2e-3, 1e12);
   const auto x = vectors(cube.reference), v = vectors(cube.v);

@@ -160,4 +160,18 @@ TEST(PlaneStress, RejectsBodiesThatAreNotWalls) {
   EXPECT_EQ(F, before);
 }
 
+// Earlier, the wall was turned back without a word, here to the identity.
+TEST(PlaneStress, RefusesAWallThatIsTurnedInsideOut) {
+  std::vector<hmps::Matrix<double, 3>> F(2, hmps::Matrix<double, 3>::Identity());
+  F[1] = Point(1, 1, -1).asDiagonal();
+  const auto before = F;
+  const std::vector<Point> normals(2, Point(0, 0, 1));
+  const auto words = message_of<hmps::StateError>([&] {
+    hmps::impose_plane_stress(hmps::matrices(F), hmps::NeoHookean<>::from_young_poisson(1e3, 0.3),
+                              hmps::vectors(normals));
+  });
+  EXPECT_NE(words.find("particle 1 of a wall is turned inside out"), std::string::npos) << words;
+  EXPECT_EQ(F, before);
+}
+
 }  // namespace plane_stress_test

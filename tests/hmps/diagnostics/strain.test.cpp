@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace strain_test {
@@ -67,6 +68,25 @@ TEST(Strain, OfAllParticlesIsThatOfEach) {
   EXPECT_THROW(green_lagrange_strains(matrices(F), matrices(strain)), InputError);
   strain.pop_back();
   EXPECT_THROW(green_lagrange_strains(matrices(F), matrices(strain)), InputError);
+}
+
+// Earlier, it was written as infinity.
+TEST(Strain, ThatIsNotFiniteNamesTheParticle) {
+  std::vector<Tensor> F(2, Tensor::Identity()), strain(2);
+  std::vector<Vector<double, 3>> stretch(2);
+  F[1](0, 0) = 1e200;
+  const auto said = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const StateError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  EXPECT_NE(said([&] { green_lagrange_strains(matrices(F), matrices(strain)); }).find("strain of particle 1 is not"),
+            std::string::npos);
+  EXPECT_NE(said([&] { principal_stretches(matrices(F), vectors(stretch)); }).find("stretches of particle 1 is not"),
+            std::string::npos);
 }
 
 }  // namespace strain_test

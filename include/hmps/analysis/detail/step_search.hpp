@@ -120,8 +120,9 @@ class StepSearch {
             settings_.start.size(), " numbers, but ", n_, " particles in ", D, " dimensions need ", n_ * D,
             "; give the mode of an earlier result for the same particles");
     for (std::size_t k = 0; k < settings_.start.size(); ++k)
-      require(is_finite(settings_.start[k]), "hmps: number ", k, " of the mode that stable_step starts from is ",
-              settings_.start[k], "; give the mode of an earlier result");
+      require(is_finite(settings_.start[k]) && std::abs(settings_.start[k]) < 1e100, "hmps: number ", k,
+              " of the mode that stable_step starts from is ", settings_.start[k],
+              "; give the mode of an earlier result, which has the length 1");
     const double share = fresh_noise / std::max(std::sqrt(scene_.dot(best_.y, best_.y)), 1e-300);
     for (std::size_t i = 0; i < n_; ++i)
       for (int c = 0; c < D; ++c)
