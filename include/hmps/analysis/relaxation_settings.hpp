@@ -40,7 +40,8 @@ struct RelaxationSettings {
   /// Whether particle i follows the forces along the axis c, such as `[&](std::size_t i, int c) { return c != 0 ||
   /// !on_plane[i]; }` for a plane of symmetry across x; along the others it keeps its position. Empty: along all axes.
   std::function<bool(std::size_t, int)> moves_along = {};
-  /// The volume V of particle i in m^D, for fitted particles that do not have the same. Empty: l0^D.
+  /// The volume V of particle i in m^D, for fitted particles that do not have the same. Empty: l0^D. Give them
+  /// if the bonds and `Organ::volume` have them, and only then.
   std::function<double(std::size_t)> volume = {};
 };
 

@@ -61,9 +61,10 @@ class BondList : public Blocks<K, D> {
   /// The same for particles of different `volumes` (m3; in 2D m2), such as those of `fit_particles`. The weight of a
   /// bond of particle i is w V_j / l0^D, so that all sums over bonds are over volumes of material. Forces remain
   /// densities; multiplied by the volume of each particle they sum to zero, and those of terms with an energy derive
-  /// from the energy with these volumes. Pass the same volumes to energies and momenta. This costs nothing in a sweep.
-  /// Also throws `InputError` for a volume that is not positive, and for volumes whose mean differs from l0^D by more
-  /// than a factor of 8, as it does in another unit.
+  /// from the energy with these volumes. Pass the same volumes to energies, momenta, `Organ::volume` and
+  /// `RelaxationSettings::volume`, or none to any of them. This costs nothing in a sweep. Also throws `InputError` for
+  /// a volume that is not positive, and for volumes whose mean differs from l0^D by more than a factor of 8, as it does
+  /// in another unit.
   template <class T, class V, class Bonded = EveryBond, class Weight = PaperWeight>
   BondList(const VectorView<T, D>& reference, const BondSettings& settings, const ScalarView<V>& volumes,
            Bonded&& bonded = {}, Weight&& weight = {})

@@ -15,7 +15,7 @@ namespace hmps::inline HMPS_ABI {
 /// Settings of `MetaballContact`.
 struct ContactSettings {
   double spacing;  ///< l0 in m.
-  double density;  ///< rho in kg/m3.
+  double density;  ///< rho in kg/m3; that of the lightest particle where organs differ.
   /// mu_tan, \paper{23}; `PairSettings` may override it. With infinity, or 100 and more, every contact sticks.
   double friction = 0;
   PenaltyStiffness stiffness = PenaltyStiffness::ratio(0.3);  ///< k, \paper{25}.

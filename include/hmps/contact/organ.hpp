@@ -36,8 +36,8 @@ struct Organ {
   /// closer or wider, give half their spacing: `[&](Index i) { return fitted.layer_spacings[i] / 2; }`.
   std::function<double(Index)> radius{};
   /// Volume in m3 (m2 in 2D) that a particle stands for (default: l0^D). If the bonds have volumes, give the same here,
-  /// `[&](Index i) { return fitted.volumes[i]; }`: otherwise the forces of bodies on each other, density times volume,
-  /// differ.
+  /// `[&](Index i) { return fitted.volumes[i]; }`, and if they have none, none: otherwise the forces of bodies on each
+  /// other, density times volume, differ. The same holds for `RelaxationSettings::volume`, energies and momenta.
   std::function<double(Index)> volume{};
 };
 
