@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace hmps::inline HMPS_ABI::detail {
 
 /// Tells how far the particles that move have moved as a whole since `start`: by the translation and rotation that fit
-/// their positions best (Kabsch 1976). What is left is their deformation.
+/// their positions best. What is left is their deformation.
 template <class Body, int D>
 class MotionAsAWhole {
  public:
@@ -41,12 +41,8 @@ class MotionAsAWhole {
       spread += p.squaredNorm() + q.squaredNorm();
       moved += (now[k] - places_[k]).squaredNorm();
     }
-    const Eigen::JacobiSVD<M> parts(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const bool mirrors = (parts.matrixU() * parts.matrixV().transpose()).determinant() < 0;
-    V sizes = parts.singularValues();
-    if (mirrors) sizes[D - 1] = -sizes[D - 1];
     const double path = std::sqrt(moved / count);
-    const double deformed = std::sqrt(std::max(spread - 2 * sizes.sum(), 0.0) / count);
+    const double deformed = std::sqrt(std::max(spread - 2 * turned(correlation), 0.0) / count);
     if (!(path >= 0.01 * spacing) || !(path >= 50 * deformed)) return "";
     return message("since iteration ", from_, " the body has moved as a whole, its centre by (", V(after - before),
                    ") m and its particles by ", path, " m, and deformed by ", deformed, " m");
@@ -65,6 +61,30 @@ class MotionAsAWhole {
     V sum = V::Zero();
     for (const V& place : places) sum += place;
     return sum / static_cast<double>(places.size());
+  }
+
+  /// The largest trace of a product R `C` with a rotation R: in three dimensions the largest eigenvalue of a matrix of
+  /// quaternions (Horn 1987), by repeated squaring.
+  [[nodiscard]] static double turned(const M& C) {
+    if constexpr (D == 2) {
+      return std::hypot(C(0, 0) + C(1, 1), C(0, 1) - C(1, 0));
+    } else {
+      using Four = Eigen::Matrix4d;
+      Four N;
+      N << C(0, 0) + C(1, 1) + C(2, 2), C(1, 2) - C(2, 1), C(2, 0) - C(0, 2), C(0, 1) - C(1, 0),  //
+          C(1, 2) - C(2, 1), C(0, 0) - C(1, 1) - C(2, 2), C(0, 1) + C(1, 0), C(2, 0) + C(0, 2),   //
+          C(2, 0) - C(0, 2), C(0, 1) + C(1, 0), C(1, 1) - C(0, 0) - C(2, 2), C(1, 2) + C(2, 1),   //
+          C(0, 1) - C(1, 0), C(2, 0) + C(0, 2), C(1, 2) + C(2, 1), C(2, 2) - C(0, 0) - C(1, 1);
+      const double size = N.norm();
+      if (!(size > 0)) return 0;
+      Four power = N / size + Four::Identity();  // no eigenvalue is negative
+      for (int k = 0; k < 60; ++k) power = (power * power).eval() / power.squaredNorm();
+      int longest = 0;
+      for (int k = 1; k < 4; ++k)
+        if (power.col(k).squaredNorm() > power.col(longest).squaredNorm()) longest = k;
+      const Eigen::Vector4d q = power.col(longest).normalized();
+      return q.dot(N * q);
+    }
   }
 
   const Body& body_;
