@@ -60,9 +60,8 @@ template <class X, class V, int D, PerParticle Rho, class... Forces>
                   "; give the result of stable_step for the same particles");
   double squares = 0;
   for (const double amplitude : found.mode) squares += amplitude * amplitude;
-  detail::require(detail::is_finite(squares) && squares > 0,
-                  "hmps: the mode that step_causes was given has the length ", std::sqrt(squares),
-                  "; give the result of stable_step");
+  detail::require(std::abs(squares - 1) < 1e-3, "hmps: the mode that step_causes was given has the length ",
+                  std::sqrt(squares), " instead of 1; give the result of stable_step");
   require_size(v, n, "velocities");
   require_positive(density, n, "density", "kg/m3");
   require_finite(x, "the position");

@@ -101,8 +101,8 @@ template <class X, class V, class FView, int D, class E>
     bool finite = is_finite(sum) && is_finite(speed);
     if (F != nullptr) {
       const Matrix<double, D> gradient = (*F)[i].template cast<double>();
-      finite = finite && is_finite(gradient.sum());
       s.jacobian = determinant(gradient);
+      finite = finite && is_finite(gradient.sum()) && is_finite(s.jacobian);
       s.most_crushed = i;
     }
     s.squared_speed = speed;

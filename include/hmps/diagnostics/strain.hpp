@@ -29,7 +29,7 @@ template <class T, int D>
 
 /// The principal stretches, the largest first: the square roots of the eigenvalues of F^T F, which are the factors by
 /// which fibres along its principal axes are longer than in the reference configuration. Their product is |det F|.
-/// Rounding is relative to the largest: if that is 1, a stretch of 1e-6 has an error of about 1e-10 in double.
+/// Rounding is relative to the largest: if that is 1, a stretch of 1e-6 has an error of up to 1e-9 in double.
 template <class T, int D>
 [[nodiscard]] Vector<T, D> principal_stretches(const Matrix<T, D>& F) {
   using Strain = Eigen::Matrix<T, D, D>;

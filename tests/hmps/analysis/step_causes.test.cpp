@@ -175,6 +175,10 @@ TEST(StepCausesMisuse, IsRefused) {
   EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, missing), InputError);
   // Trial displacements that vanish in the rounding of the positions.
   EXPECT_THROW((void)stable_step(spring, vectors(x), vectors(v), 1000.0, {.spacing = 1e-12}), InputError);
+  StableStep halved = found;
+  for (double& amplitude : halved.mode) amplitude /= 2;
+  EXPECT_THROW((void)step_causes(halved, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, whole), InputError)
+      << "a mode of another length";
   found.mode.assign(6, 0.0);
   const NamedForce part{"spring", spring};
   EXPECT_THROW((void)step_causes(found, vectors(x), vectors(v), 1000.0, {.spacing = 1e-3}, part), InputError);

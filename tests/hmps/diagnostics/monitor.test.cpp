@@ -106,6 +106,21 @@ TEST(Monitor, MessageWorksWithoutTimeAndOrgan) {
   EXPECT_EQ(fault->message.rfind("hmps: particle 0: its speed is 3 m/s", 0), 0u) << fault->message;
 }
 
+// Entries of 1e110 are finite, but det F is NaN or infinite.
+TEST(Monitor, NamesAParticleWhoseVolumeOverflows) {
+  const std::vector<Vector<double, 3>> x(4, Vector<double, 3>::Zero()), v = x;
+  Matrix<double, 3> full;
+  full << 1, 2, 3, 4, 5, 7, 7, 8, 10;
+  for (const Matrix<double, 3>& shape : {full, Matrix<double, 3>(Matrix<double, 3>::Identity())}) {
+    std::vector<Matrix<double, 3>> F(4, Matrix<double, 3>::Identity());
+    F[2] = 1e110 * shape;
+    const auto fault = find_fault(vectors(x), vectors(v), matrices(F), StateLimits{});
+    ASSERT_TRUE(fault.has_value()) << shape;
+    EXPECT_EQ(fault->kind, FaultKind::not_finite);
+    EXPECT_EQ(fault->particle, 2u);
+  }
+}
+
 TEST(Monitor, ViewsOfDifferentSizesAreRefused) {
   std::vector<Vector<double, 2>> x(3, Vector<double, 2>::Zero()), few(2, Vector<double, 2>::Zero());
   std::vector<Matrix<double, 2>> F(2, Matrix<double, 2>::Identity());
