@@ -46,8 +46,8 @@ struct Register {
 #define HMPS_ROOT_OF_DOUBLES(x) __builtin_elementwise_sqrt(x)
 #endif
 #elif defined(__AVX512F__)  // 4: rounds as the current mode says
-#define HMPS_ROOT_OF_FLOATS(x) __builtin_ia32_sqrtps512_mask(x, x, static_cast<std::uint16_t>(-1), 4)
-#define HMPS_ROOT_OF_DOUBLES(x) __builtin_ia32_sqrtpd512_mask(x, x, static_cast<std::uint8_t>(-1), 4)
+#define HMPS_ROOT_OF_FLOATS(x) __builtin_ia32_sqrtps512_mask(x, x, static_cast<short>(-1), 4)
+#define HMPS_ROOT_OF_DOUBLES(x) __builtin_ia32_sqrtpd512_mask(x, x, static_cast<char>(-1), 4)
 #elif defined(__AVX2__)
 #define HMPS_ROOT_OF_FLOATS(x) __builtin_ia32_sqrtps256(x)
 #define HMPS_ROOT_OF_DOUBLES(x) __builtin_ia32_sqrtpd256(x)
