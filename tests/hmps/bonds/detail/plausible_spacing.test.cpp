@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -52,12 +53,20 @@ TEST(PlausibleSpacing, NamesARadiusThatIsNotInSpacings) {
   EXPECT_TRUE(has(error, "radius_ratio is a number of spacings")) << error;
 }
 
-// Denser or sparser than a lattice, or with another radius, as clouds that are not lattices may be.
+template <int D>
+scenes::Points<D> irregular(scenes::Points<D> points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < D; ++c)
+      points[i][c] += 0.05 * scenes::Scene<D>::spacing * std::sin(static_cast<double>(7 * i) + 2.0 * c);
+  return points;
+}
+
+// Denser or sparser than a lattice, as clouds that are not regular may be, or with another radius.
 TEST(PlausibleSpacing, AcceptsUnusualSpacings) {
   constexpr double l0 = scenes::Scene<3>::spacing;
   for (const double ratio : {0.7, 1.0, 1.3}) {
-    EXPECT_EQ(error_with<3>(scenes::box<3>({9, 9, 9}), ratio * l0), "nothing was thrown") << ratio;
-    EXPECT_EQ(error_with<2>(scenes::box<2>({9, 9}), ratio * l0), "nothing was thrown") << ratio;
+    EXPECT_EQ(error_with<3>(irregular<3>(scenes::box<3>({9, 9, 9})), ratio * l0), "nothing was thrown") << ratio;
+    EXPECT_EQ(error_with<2>(irregular<2>(scenes::box<2>({9, 9})), ratio * l0), "nothing was thrown") << ratio;
   }
   for (const double radius : {1.01, 1.4143, 1.7321, 2.0, 3.1}) {
     EXPECT_EQ(error_with<2>(scenes::box<2>({9, 9}), l0, radius), "nothing was thrown") << radius;
@@ -65,11 +74,55 @@ TEST(PlausibleSpacing, AcceptsUnusualSpacings) {
   }
 }
 
+// Once these passed, with another effective radius than the caller thought. The spacing of a lattice is known.
+TEST(PlausibleSpacing, RefusesAnotherSpacingThanThatOfALattice) {
+  constexpr double l0 = scenes::Scene<3>::spacing;
+  const auto turned = [](auto points) {
+    for (auto& x : points) x = (Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, -1).normalized()) * x).eval();
+    return points;
+  };
+  auto two_bodies = scenes::box<3>({6, 6, 6});
+  for (const auto& x : scenes::box<3>({6, 5, 4}))
+    two_bodies.push_back(x + hmps::Vector<double, 3>(8.3 * l0, 0.2 * l0, 0.4 * l0));
+  for (const double ratio : {0.7, 0.9, 0.97, 1.03, 1.1, 1.3}) {
+    for (const auto& points : {scenes::box<3>({9, 9, 9}), scenes::box<3>({12, 9, 2}), scenes::box<3>({9, 3, 3}),
+                               turned(scenes::box<3>({9, 9, 9})), two_bodies})
+      EXPECT_TRUE(has(error_with<3>(points, ratio * l0), "lattice of spacing 0.0012")) << ratio;
+    EXPECT_TRUE(has(error_with<2>(scenes::box<2>({9, 9}), ratio * l0), "lattice of spacing 0.0012")) << ratio;
+  }
+  for (const double ratio : {0.985, 1.0, 1.015})
+    EXPECT_EQ(error_with<3>(turned(scenes::box<3>({9, 9, 9})), ratio * l0), "nothing was thrown") << ratio;
+}
+
+// Regular clouds that are no cubic lattice have a spacing (the cube root of the volume of a particle) that is not the
+// distance to the nearest neighbour.
+TEST(PlausibleSpacing, AcceptsTheSpacingOfOtherRegularClouds) {
+  scenes::Points<3> face_centred, body_centred, flat, layer;
+  scenes::Points<2> triangular;
+  for (int i = 0; i < 7; ++i)
+    for (int j = 0; j < 7; ++j) {
+      for (int k = 0; k < 7; ++k) {
+        const hmps::Vector<double, 3> x(i, j, k);
+        if ((i + j + k) % 2 == 0) face_centred.push_back(x);
+        body_centred.push_back(2 * x);
+        body_centred.push_back(2 * x + hmps::Vector<double, 3>::Ones());
+        if (k < 3) flat.emplace_back(i, j, 0.8 * k);
+      }
+      layer.emplace_back(i, j, 0);
+      triangular.emplace_back(i + 0.5 * (j % 2), std::sqrt(0.75) * j);
+    }
+  EXPECT_EQ(error_with<3>(face_centred, std::cbrt(2)), "nothing was thrown");
+  EXPECT_EQ(error_with<3>(body_centred, std::cbrt(4)), "nothing was thrown");
+  EXPECT_EQ(error_with<3>(flat, std::cbrt(0.8)), "nothing was thrown");
+  EXPECT_EQ(error_with<2>(triangular, std::sqrt(std::sqrt(0.75))), "nothing was thrown");
+  EXPECT_FALSE(has(error_with<3>(layer, 1.2), "lattice of spacing"));
+}
+
 TEST(PlausibleSpacing, RefusesSpacingsThatNoCloudHas) {
   constexpr double l0 = scenes::Scene<3>::spacing;
   for (const double ratio : {0.58, 0.6}) {
-    EXPECT_TRUE(has(error_with<3>(scenes::box<3>({9, 9, 9}), ratio * l0), "spacing of about that size")) << ratio;
-    EXPECT_TRUE(has(error_with<2>(scenes::box<2>({9, 9}), ratio * l0), "spacing of about that size")) << ratio;
+    EXPECT_TRUE(has(error_with<3>(irregular<3>(scenes::box<3>({9, 9, 9})), ratio * l0), "spacing of about that size"));
+    EXPECT_TRUE(has(error_with<2>(irregular<2>(scenes::box<2>({9, 9})), ratio * l0), "spacing of about that size"));
   }
   EXPECT_TRUE(has(error_with<3>(scenes::box<3>({16, 16, 16}), 1.5 * l0), "give a spacing of that size"));
   EXPECT_TRUE(has(error_with<2>(scenes::box<2>({40, 40}), 2.1 * l0), "give a spacing of that size"));
