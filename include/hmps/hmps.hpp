@@ -113,6 +113,7 @@
 #include "hmps/terms/artificial_tension.hpp"
 #include "hmps/terms/bar_stabiliser.hpp"
 #include "hmps/terms/dead_load.hpp"
+#include "hmps/terms/edge_stabiliser.hpp"
 #include "hmps/terms/elastic.hpp"
 #include "hmps/terms/gravity.hpp"
 #include "hmps/terms/mean_dilatation.hpp"

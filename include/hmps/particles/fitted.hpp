@@ -9,14 +9,17 @@
 #include <vector>
 
 #include "hmps/core/abi.hpp"
+#include "hmps/core/error.hpp"
 #include "hmps/core/executor.hpp"
 #include "hmps/core/types.hpp"
+#include "hmps/core/view.hpp"
 #include "hmps/particles/detail/fitted_cloud.hpp"
 #include "hmps/particles/detail/fitted_field.hpp"
 #include "hmps/particles/detail/fitted_samples.hpp"
 #include "hmps/particles/detail/fitted_volumes.hpp"
 #include "hmps/particles/fitted_settings.hpp"
 #include "hmps/particles/surface_lattice.hpp"
+#include "hmps/search/fixed_radius.hpp"
 #include "hmps/shapes/implicit.hpp"
 #include "hmps/shapes/mesh_distance.hpp"
 #include "hmps/shapes/surface_mesh.hpp"
@@ -30,22 +33,49 @@ struct FittedParticles {
   std::vector<S> volumes;               ///< of each particle in m3 (2D: m2); their sum is the volume of the body
   std::vector<int> layers;              ///< number of layers through the wall at each particle, 0 in bulk
   std::vector<S> layer_spacings;        ///< distance of these layers in m, l0 in bulk
-  int iterations = 0;                   ///< number of iterations made
+  /// The share of the surface within 1.5 spacings of each particle that belongs to an edge, from 0 to 1: the largest
+  /// ball in the body that touches the surface there meets a neighbouring face instead of the opposite one. A wall ends
+  /// in an edge as deep as half its thickness. In bulk it is 0.
+  std::vector<S> edges;
+  double spacing = 0;  ///< l0 in m
+  int iterations = 0;  ///< number of iterations made
   /// The largest deviation in m of a particle of the outermost layer from its depth of half a layer.
   double largest_deviation = 0;
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 
   /// Appends the particles of another part of the body that was fitted separately with the same spacing, such as the
-  /// piece by which it is held.
+  /// piece by which it is held. The faces where the parts meet are not edges of the whole. Throws `InputError` for a
+  /// part with another spacing.
   void append(FittedParticles part) {
+    if (spacing > 0 && part.spacing > 0) {
+      detail::require(spacing == part.spacing, "hmps: a part with a spacing of ", part.spacing,
+                      " m is appended to particles with one of ", spacing, " m; fit both with the same spacing");
+      clear_edges(*this, part);
+      clear_edges(part, *this);
+    }
+    if (!(spacing > 0)) spacing = part.spacing;
     const auto add = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
     add(positions, part.positions);
     add(volumes, part.volumes);
     add(layers, part.layers);
     add(layer_spacings, part.layer_spacings);
+    add(edges, part.edges);
     iterations = std::max(iterations, part.iterations);
     largest_deviation = std::max(largest_deviation, part.largest_deviation);
+  }
+
+ private:
+  /// Sets to zero the `edges` that particles of `part` owe to the face where it meets the `other` part: the particles
+  /// of the other part are half a spacing behind this face, an edge reaches half a thickness from it, and `edges` takes
+  /// in 1.5 spacings more.
+  static void clear_edges(FittedParticles& part, const FittedParticles& other) {
+    const FixedRadiusSearch search(vectors(other.positions));
+    for (std::size_t i = 0; i < part.edges.size(); ++i) {
+      if (!(part.edges[i] > 0)) continue;
+      const double half = 0.5 * part.layers[i] * static_cast<double>(part.layer_spacings[i]);
+      if (search.count(part.positions[i], static_cast<S>(half + 2 * part.spacing)) > 0) part.edges[i] = 0;
+    }
   }
 };
 
@@ -101,6 +131,7 @@ requires Shape<F, S, D>
   if (settings.least_support > 0) cloud.remove_weak(settings.least_support);
 
   FittedParticles<S, D> result;
+  result.spacing = l0;
   result.iterations = settings.iterations;
   for (const double volume : detail::fitted_volumes(field, cloud, settings, loops))
     result.volumes.push_back(static_cast<S>(volume));
@@ -109,6 +140,7 @@ requires Shape<F, S, D>
     result.positions.push_back(p.place.template cast<S>());
     result.layers.push_back(p.layers.thick ? 0 : p.layers.count);
     result.layer_spacings.push_back(static_cast<S>(p.layers.spacing));
+    result.edges.push_back(static_cast<S>(p.layers.edge));
     if (p.layers.layer(p.depth) == 0)
       result.largest_deviation = std::max(result.largest_deviation, std::abs(p.depth - p.layers.level(0)));
   }

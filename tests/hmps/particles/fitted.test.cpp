@@ -402,6 +402,58 @@ TEST(FitParticles, AppendsAnotherPart) {
     EXPECT_EQ(both.layer_spacings[i], part.layer_spacings[k]);
   }
   EXPECT_EQ(both.largest_deviation, std::max(left.largest_deviation, right.largest_deviation));
+  EXPECT_EQ(both.spacing, 1.0);
+  auto empty = hmps::FittedParticles<double, 3>{};
+  empty.append(right);
+  EXPECT_EQ(empty.edges, right.edges);
+  EXPECT_EQ(empty.spacing, 1.0);
+  const Box<double, 3> finer{V3(0, 0, 0), V3(3, 5, 4)};
+  const std::string message = message_of([&] { both.append(fit_particles(finer, finer, 0.8)); });
+  EXPECT_NE(message.find("a part with a spacing of 0.8 m"), std::string::npos) << message;
+}
+
+// A wall of two layers ends in an edge one layer deep, which the particles within 1.5 spacings see beside its faces.
+TEST(FitParticles, TellsTheEdgesOfWalls) {
+  const Box<double, 3> plate{V3(0, 0, 0), V3(16, 20, 2)};
+  const auto fitted = fit_particles(plate, plate, 1.0);
+  int rims = 0, middles = 0;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const V3& x = fitted.positions[i];
+    const double inside = std::min({x[0], 16 - x[0], x[1], 20 - x[1]});
+    if (inside < 0.7) {
+      ++rims;
+      EXPECT_GT(fitted.edges[i], 0.45) << x.transpose();
+    } else if (inside > 2.6) {
+      ++middles;
+      EXPECT_EQ(fitted.edges[i], 0) << x.transpose();
+    }
+    EXPECT_LE(fitted.edges[i], 1);
+  }
+  EXPECT_GT(rims, 100);
+  EXPECT_GT(middles, 200);
+}
+
+TEST(FitParticles, FindsNoEdgesOfThickBodies) {
+  const Box<double, 3> cube{V3(0, 0, 0), V3(12, 12, 12)};
+  for (const double edge : fit_particles(cube, cube, 1.0).edges) EXPECT_EQ(edge, 0);
+}
+
+// Two pieces of a plate that meet at x = 8: the face between them is no edge, the rims elsewhere still are.
+TEST(FitParticles, ForgetsTheEdgeWherePartsMeet) {
+  const auto fit = [](double from, double to) {
+    const Box<double, 3> part{V3(from, 0, 0), V3(to, 12, 2)};
+    return fit_particles(part, part, 1.0);
+  };
+  auto plate = fit(0, 8);
+  plate.append(fit(8, 16));
+  for (std::size_t i = 0; i < plate.size(); ++i) {
+    const double x = plate.positions[i][0];
+    if (std::abs(x - 8) < 2) {
+      EXPECT_EQ(plate.edges[i], 0) << x;
+    } else if (x < 0.7 || x > 15.3) {
+      EXPECT_GT(plate.edges[i], 0.45) << x;
+    }
+  }
 }
 
 TEST(FitParticles, ReportsProgress) {

@@ -53,7 +53,8 @@ struct Layering {
   double spacing = 0;    // m
   int count = 0;
   bool thick = true;
-  int side = 0;  // 0 or 1: which way the nearest part of the surface faces, so that opposite faces of a wall differ
+  int side = 0;     // 0 or 1: which way the nearest part of the surface faces, so that opposite faces of a wall differ
+  double edge = 0;  // 0 to 1: the share of the surface nearby that is the edge of a wall; 0 where the body is thick
 
   /// The layer of a particle at `depth`, counted from the nearest surface.
   [[nodiscard]] int layer(double depth) const {
@@ -111,7 +112,8 @@ class FittedField {
   [[nodiscard]] Layering layering(const Point& x) const {
     if (-(*this)(x) >= most_layers * spacing_ / 2) return {most_layers * spacing_, spacing_, most_layers, true};
     const double nearby = 1.5 * spacing_, farthest = 13 * spacing_;
-    double weight = 0, sum = 0, least = 0, closest = std::numeric_limits<double>::infinity();
+    double weight = 0, sum = 0, least = 0, edges = 0, closest = std::numeric_limits<double>::infinity();
+    double edge = 0;
     int side = 0;
     for (double radius = nearby; radius < farthest && !(weight > 0); radius *= 2) {
       grid_.visit(x, radius, [&](Index k, double squared) {
@@ -119,17 +121,22 @@ class FittedField {
         if ((point.place - x).dot(point.outward) < 0) return;  // it faces x: it belongs to another part, across a gap
         if (squared < closest) closest = squared, side = point.side();
         if (radius > nearby) least = std::max(least, point.least);
-        if (!(point.thickness > 0)) return;
         const double w = 1 - std::sqrt(squared) / radius;
-        weight += w * w;
-        sum += w * w * point.thickness;
+        if (point.thickness > 0) {
+          weight += w * w;
+          sum += w * w * point.thickness;
+        } else if (radius == nearby) {
+          edges += w * w;
+        }
       });
+      if (radius == nearby && edges > 0) edge = edges / (edges + weight);
       if (least >= most_layers * spacing_) break;
     }
     const double thickness = std::max(weight > 0 ? sum / weight : most_layers * spacing_, least);
     // Walls half a layer thicker than a whole number are rounded up throughout, whatever the rounding of the thickness.
     const int count = std::max(least_layers_, static_cast<int>(thickness / spacing_ + 0.501));
-    return {thickness, thickness / count, count, thickness > (most_layers - 0.01) * spacing_, side};
+    const bool thick = thickness > (most_layers - 0.01) * spacing_;
+    return {thickness, thickness / count, count, thick, side, thick ? 0 : edge};
   }
 
   [[nodiscard]] const std::vector<Sample<D>>& samples() const { return samples_; }
