@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "fitted/scene.hpp"
-#include "report/text.hpp"
 
 namespace fitted {
 namespace clamped_detail {
@@ -24,7 +23,8 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 [[nodiscard]] double spacing_of(int layers) { return wall / layers; }
 
 /// The torque in uN m of a strip along x and y, `length` x `width` (m), of which one end is turned about x.
-[[nodiscard]] double turned_strip(const Placement& at, int layers, bool own_volumes, double length, double width) {
+[[nodiscard]] double turned_strip(const Placement& at, int layers, Choice choice, bool own_volumes, double length,
+                                  double width) {
   constexpr double angle = 0.02;
   const double l0 = spacing_of(layers), clamp = length / 2 - l0 / 2;
   const auto part = [&](double from, double to) {
@@ -33,7 +33,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
   };
   const Piece middle = part(-clamp, clamp), fixed = part(-length / 2 - held, -clamp),
               turned = part(clamp, length / 2 + held);
-  FittedBody body(l0, {middle, fixed, turned}, Choice::thin_wall, layers, material(), own_volumes);
+  FittedBody body(l0, {middle, fixed, turned}, choice, layers, material(), own_volumes);
   const std::size_t first_turned = middle.size() + fixed.size(), all = first_turned + turned.size();
   for (std::size_t i = 0; i < all; ++i) {
     const Vector X = at.local(body.reference(i));
@@ -52,7 +52,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 
 /// How far a wedge gives way, in mm. Its edge is too thin for particles, so each particle carries the load of its own
 /// volume.
-[[nodiscard]] double press_wedge(const Placement& at, int layers) {
+[[nodiscard]] double press_wedge(const Placement& at, int layers, Choice choice) {
   constexpr double length = 36e-3, width = 24e-3, thin = 1.2e-3, loaded = 12e-3;
   const double l0 = spacing_of(layers), slope = (wall - thin) / (2 * length);
   const auto tapered = [=](const Vector& x) {
@@ -62,13 +62,13 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
     return fit_where_it_lies(at, tapered, {Vector(from, -width / 2, -wall), Vector(to, width / 2, wall)}, l0);
   };
   const Piece moving = part(l0 / 2, length);
-  FittedBody body(l0, {moving, part(-held, l0 / 2)}, Choice::thin_wall, layers, material());
+  FittedBody body(l0, {moving, part(-held, l0 / 2)}, choice, layers, material());
   const auto pattern = [](const Vector& x) -> Vector { return {0, 0, -std::max(0.0, 1 - (length - x[0]) / loaded)}; };
   return body.gives_way(at, {.pattern = pattern, .size = 1000}, moving.volumes);
 }
 
 /// How far a plate on a web gives way to a load on one of its arms, in mm.
-[[nodiscard]] double press_arm(const Placement& at, int layers) {
+[[nodiscard]] double press_arm(const Placement& at, int layers, Choice choice) {
   constexpr double arm = 21.6e-3, height = 24e-3, width = 24e-3;
   const double l0 = spacing_of(layers);
   const auto united = hmps::unite(Box{Vector(-arm, -width / 2, -wall / 2), Vector(arm, width / 2, wall / 2)},
@@ -77,7 +77,7 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
     return fit_where_it_lies(at, united, {Vector(-arm - l0, -width / 2, from), Vector(arm + l0, width / 2, to)}, l0);
   };
   const double clamp = l0 / 2 - height;
-  FittedBody body(l0, {part(clamp, wall / 2 + l0), part(-height - held, clamp)}, Choice::thin_wall, layers, material());
+  FittedBody body(l0, {part(clamp, wall / 2 + l0), part(-height - held, clamp)}, choice, layers, material());
   const auto pattern = [](const Vector& x) -> Vector { return {0, 0, -std::max(0.0, x[0]) / arm}; };
   return body.gives_way(at, {.pattern = pattern, .size = 600});
 }
@@ -85,63 +85,59 @@ constexpr double wedge_answer = 0.3328, junction_answer = 0.253;  // mm
 }  // namespace
 }  // namespace clamped_detail
 
-report::Table twisted_strip(bool quick, bool own_volumes) {
+Comparison strip(bool own_volumes) {
   using namespace clamped_detail;
-  return compared(
-      {.name = own_volumes ? "strip_volumes" : "strip",
-       .of = own_volumes ? "the strip with own volumes" : "the strip",
-       .measured = "torque (uN m)",
-       .answer = 1e6 * torque,
-       .digits = 3,
-       .layers = {2, 3, 4},
-       .placements = {6, 4, 3},
-       .measure = [=](const Placement& at, int layers) { return turned_strip(at, layers, own_volumes, 72e-3, 18e-3); },
-       .spacing = spacing_of},
-      quick);
+  return {.name = own_volumes ? "strip_volumes" : "strip",
+          .of = own_volumes ? "the strip with own volumes" : "the strip",
+          .measured = "torque (uN m)",
+          .answer = 1e6 * torque,
+          .digits = 3,
+          .layers = {2, 3, 4},
+          .placements = {6, 4, 3},
+          .measure = [=](const Placement& at, int layers,
+                         Choice choice) { return turned_strip(at, layers, choice, own_volumes, 72e-3, 18e-3); },
+          .spacing = spacing_of};
 }
 
-report::Table twisted_wide_strip(bool quick) {
+Comparison wide_strip() {
   using namespace clamped_detail;
-  return compared(
-      {.name = "wide_strip",
-       .of = "the wide strip",
-       .measured = "torque (uN m)",
-       .answer = 1e6 * wide_torque,
-       .digits = 3,
-       .layers = {2, 3},
-       .placements = {2, 2},
-       .measure = [](const Placement& at, int layers) { return turned_strip(at, layers, false, 144e-3, 54e-3); },
-       .spacing = spacing_of},
-      quick);
+  return {.name = "wide_strip",
+          .of = "the wide strip",
+          .measured = "torque (uN m)",
+          .answer = 1e6 * wide_torque,
+          .digits = 3,
+          .layers = {2, 3},
+          .placements = {2, 2},
+          .measure = [](const Placement& at, int layers,
+                        Choice choice) { return turned_strip(at, layers, choice, false, 144e-3, 54e-3); },
+          .spacing = spacing_of};
 }
 
-report::Table wedge(bool quick) {
+Comparison wedge() {
   using namespace clamped_detail;
-  return compared({.name = "wedge",
-                   .of = "the wedge",
-                   .measured = "gives way by (mm)",
-                   .answer = wedge_answer,
-                   .digits = 3,
-                   .layers = {4},
-                   .placements = {4},
-                   .measure = press_wedge,
-                   .spacing = spacing_of,
-                   .bound = [](int) { return 0.06; }},
-                  quick);
+  return {.name = "wedge",
+          .of = "the wedge",
+          .measured = "gives way by (mm)",
+          .answer = wedge_answer,
+          .digits = 3,
+          .layers = {4},
+          .placements = {4},
+          .measure = press_wedge,
+          .spacing = spacing_of,
+          .bound = [](int) { return 0.06; }};
 }
 
-report::Table junction(bool quick) {
+Comparison junction() {
   using namespace clamped_detail;
-  return compared({.name = "junction",
-                   .of = "the junction",
-                   .measured = "gives way by (mm)",
-                   .answer = junction_answer,
-                   .digits = 4,
-                   .layers = {2, 3, 4},
-                   .placements = {6, 4, 3},
-                   .measure = press_arm,
-                   .spacing = spacing_of},
-                  quick);
+  return {.name = "junction",
+          .of = "the junction",
+          .measured = "gives way by (mm)",
+          .answer = junction_answer,
+          .digits = 4,
+          .layers = {2, 3, 4},
+          .placements = {6, 4, 3},
+          .measure = press_arm,
+          .spacing = spacing_of};
 }
 
 }  // namespace fitted

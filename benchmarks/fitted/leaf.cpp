@@ -46,14 +46,14 @@ constexpr double answer = 0.2648;
 }
 
 /// How far the leaf gives way to a load on its tip, in mm.
-[[nodiscard]] double press_tip(const Placement& at, int layers) {
+[[nodiscard]] double press_tip(const Placement& at, int layers, Choice choice) {
   // The outermost held particles lie half a layer behind the cut.
   const double l0 = spacing_of(layers), face = clamp + wall / layers / 2;
   const auto part = [&](double from, double to) {
     const auto shape = [=](const Vector& x) { return 1e-3 * distance(1e3 * x, from, to); };
     return fit_where_it_lies(at, shape, {Vector(-16e-3, -14e-3, 8e-3), Vector(14e-3, 14e-3, 54e-3)}, l0);
   };
-  FittedBody body(l0, {part(face, Epiglottis::length), part(clamp - held, face)}, Choice::thin_wall, layers,
+  FittedBody body(l0, {part(face, Epiglottis::length), part(clamp - held, face)}, choice, layers,
                   hmps::MooneyRivlin<>::from_young(100e3, 1e6));
   const double tip = Epiglottis::angle(Epiglottis::length);
   const auto pattern = [&](const Vector& x) -> Vector {
@@ -66,19 +66,18 @@ constexpr double answer = 0.2648;
 }  // namespace
 }  // namespace leaf_detail
 
-report::Table leaf(bool quick) {
+Comparison leaf() {
   using namespace leaf_detail;
-  return compared({.name = "leaf",
-                   .of = "the leaf",
-                   .measured = "gives way by (mm)",
-                   .answer = answer,
-                   .digits = 4,
-                   .layers = {2, 3, 4},
-                   .placements = {6, 4, 3},
-                   .measure = press_tip,
-                   .spacing = spacing_of,
-                   .bound = [](int) { return 0.05; }},
-                  quick);
+  return {.name = "leaf",
+          .of = "the leaf",
+          .measured = "gives way by (mm)",
+          .answer = answer,
+          .digits = 4,
+          .layers = {2, 3, 4},
+          .placements = {6, 4, 3},
+          .measure = press_tip,
+          .spacing = spacing_of,
+          .bound = [](int) { return 0.05; }};
 }
 
 }  // namespace fitted

@@ -63,6 +63,8 @@ std::string name(Choice choice) {
       return "sheet_stabiliser";
     case Choice::thin_wall:
       return "thin_wall_stabiliser";
+    case Choice::edges:
+      return "edge_stabiliser";
     case Choice::bar:
       return "bar_stabiliser";
   }
@@ -87,6 +89,13 @@ FittedBody::FittedBody(double spacing, const std::vector<Piece>& pieces, Choice 
   if (choice == Choice::thin_wall) {
     chosen_ = scenes::stabiliser_of(scenes::joined(pieces), spacing, material);
     internal_ = scenes::thin_wall_force(*bonds_, material, chosen_);
+  } else if (choice == Choice::edges) {
+    const Piece all = scenes::joined(pieces);
+    chosen_ = scenes::stabiliser_of(all, spacing, material);
+    auto of = hmps::edge_stabiliser(chosen_.moduli, all.edges);
+    chosen_.moduli = std::move(of.moduli);
+    tension_ = std::move(of.tension);
+    internal_ = scenes::thin_wall_force(*bonds_, material, chosen_, hmps::artificial_tension(hmps::scalars(tension_)));
   } else if (choice == Choice::bar) {
     const auto [modulus, tension] = hmps::bar_stabiliser(shear);
     internal_ =
@@ -234,7 +243,7 @@ report::Table compared(const Comparison& with, bool quick) {
     const int layers = with.layers[k];
     std::vector<double> found;
     for (const Placement& at : any_placements(quick ? 1 : with.placements[k], with.spacing(layers)))
-      found.push_back(with.measure(at, layers));
+      found.push_back(with.measure(at, layers, Choice::thin_wall));
     const Spread by = spread(found);
     const double error = by.mean / with.answer - 1;
     table.rows.push_back({std::to_string(layers), std::to_string(found.size()), places(by.mean, with.digits),
@@ -244,6 +253,31 @@ report::Table compared(const Comparison& with, bool quick) {
     table.check(std::abs(error) < with.bound(layers), which + "misses its bound");
     table.check(by.scatter < 0.02, which + "depends on how it lies");
   }
+  return table;
+}
+
+report::Table compared_at_edges(const std::vector<Comparison>& with, bool quick) {
+  using report::places;
+  report::Table table{
+      .name = "edges",
+      .header = {"body", "layers", "placements", name(Choice::thin_wall), "scatter", name(Choice::edges), "scatter"}};
+  for (const Comparison& body : with)
+    for (std::size_t k = 0; k < (quick ? 1 : body.layers.size()); ++k) {
+      const int layers = body.layers[k];
+      const auto placements = any_placements(quick ? 1 : body.placements[k], body.spacing(layers));
+      report::Cells row{body.of, std::to_string(layers), std::to_string(placements.size())};
+      for (const Choice choice : {Choice::thin_wall, Choice::edges}) {
+        std::vector<double> found;
+        for (const Placement& at : placements) found.push_back(body.measure(at, layers, choice));
+        const Spread by = spread(found);
+        row.push_back(percent(by.mean / body.answer - 1));
+        row.push_back(places(100 * by.scatter, 1) + " %");
+        if (choice == Choice::edges)
+          table.check(std::abs(by.mean / body.answer - 1) < body.bound(layers),
+                      body.of + " of " + std::to_string(layers) + " layers misses its bound");
+      }
+      table.rows.push_back(row);
+    }
   return table;
 }
 

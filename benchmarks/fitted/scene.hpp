@@ -64,6 +64,7 @@ enum class Choice {
   waves,      // E_hat = 4/3 mu
   sheet,      // sheet_stabiliser
   thin_wall,  // thin_wall_stabiliser
+  edges,      // thin_wall_stabiliser and edge_stabiliser
   bar,        // bar_stabiliser
 };
 [[nodiscard]] std::string name(Choice choice);
@@ -106,6 +107,7 @@ class FittedBody {
   std::size_t moving_;
   scenes::Body<3> body_;
   hmps::ThinWallStabiliser<double> chosen_;
+  std::vector<double> tension_;
   std::unique_ptr<hmps::BondList<double, 3>> bonds_;
   hmps::ForceFunction<double, 3> internal_;
 };
@@ -124,28 +126,32 @@ struct Comparison {
   double answer;
   int digits;
   std::vector<int> layers;
-  std::vector<int> placements;                           ///< for each number of layers
-  std::function<double(const Placement&, int)> measure;  ///< with a number of layers
-  std::function<double(int)> spacing;                    ///< with a number of layers, m
+  std::vector<int> placements;                                   ///< for each number of layers
+  std::function<double(const Placement&, int, Choice)> measure;  ///< with a number of layers
+  std::function<double(int)> spacing;                            ///< with a number of layers, m
   /// Bound of the error: 6 % with two layers, 3 % with more.
   std::function<double(int)> bound = [](int count) { return count < 3 ? 0.06 : 0.03; };
 };
-/// Runs a comparison; with `quick` only the first number of layers in one placement.
+/// Runs a comparison with `thin_wall_stabiliser`; with `quick` only the first number of layers in one placement.
 [[nodiscard]] report::Table compared(const Comparison& with, bool quick);
+/// Runs comparisons with `edge_stabiliser` too.
+[[nodiscard]] report::Table compared_at_edges(const std::vector<Comparison>& with, bool quick);
 
-/// The tables of the page; with `quick` only a small part.
+/// The bodies of the page that are compared in this way.
+[[nodiscard]] Comparison ring();           ///< ring.cpp
+[[nodiscard]] Comparison half_cylinder();  ///< shells.cpp
+[[nodiscard]] Comparison half_ball();
+[[nodiscard]] Comparison strip(bool own_volumes);  ///< clamped.cpp
+[[nodiscard]] Comparison wide_strip();
+[[nodiscard]] Comparison wedge();
+[[nodiscard]] Comparison junction();
+[[nodiscard]] Comparison leaf();  ///< leaf.cpp
+
+/// The other tables of the page; with `quick` only a small part.
 [[nodiscard]] report::Table plate_about_one_axis(const std::vector<double>& spacings, bool quick);  ///< plate.cpp
 [[nodiscard]] report::Table plate_about_any_axis(const std::vector<double>& spacings, bool quick);
-[[nodiscard]] report::Table twisted_bar(bool quick);    ///< bar.cpp
-[[nodiscard]] report::Table pinched_ring(bool quick);   ///< ring.cpp
-[[nodiscard]] report::Table bent_strip(bool quick);     ///< bend.cpp
-[[nodiscard]] report::Table half_cylinder(bool quick);  ///< shells.cpp
-[[nodiscard]] report::Table half_ball(bool quick);
-[[nodiscard]] report::Table twisted_strip(bool quick, bool own_volumes);  ///< clamped.cpp
-[[nodiscard]] report::Table twisted_wide_strip(bool quick);
-[[nodiscard]] report::Table wedge(bool quick);
-[[nodiscard]] report::Table junction(bool quick);
-[[nodiscard]] report::Table leaf(bool quick);          ///< leaf.cpp
+[[nodiscard]] report::Table twisted_bar(bool quick);   ///< bar.cpp
+[[nodiscard]] report::Table bent_strip(bool quick);    ///< bend.cpp
 [[nodiscard]] report::Table outer_stress(bool quick);  ///< stress.cpp
 
 }  // namespace fitted

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "fitted/scene.hpp"
-#include "report/text.hpp"
 
 namespace fitted {
 namespace shells_detail {
@@ -22,11 +21,11 @@ constexpr double pinched = 0.1907, blown = 0.01275;
 [[nodiscard]] double spacing_of(int layers) { return wall / layers; }
 
 /// How far the load (-x, 0, 0) / R cos^2(pi y / length) pinches the free half cylinder about y, where z > 0, in mm.
-[[nodiscard]] double pinch(const Placement& at, int layers) {
+[[nodiscard]] double pinch(const Placement& at, int layers, Choice choice) {
   const double l0 = spacing_of(layers), outer = radius + wall / 2;
   const auto tube = [](const Vector& x) { return std::abs(std::hypot(x[0], x[2]) - radius) - wall / 2; };
   const hmps::Box<double, 3> half{Vector(-outer - l0, -length / 2, 0), Vector(outer + l0, length / 2, outer + l0)};
-  FittedBody body(l0, {fit_where_it_lies(at, tube, half, l0)}, Choice::thin_wall, layers, material());
+  FittedBody body(l0, {fit_where_it_lies(at, tube, half, l0)}, choice, layers, material());
   const auto pattern = [](const Vector& x) -> Vector {
     return {-x[0] / radius * std::pow(std::cos(std::numbers::pi * x[1] / length), 2), 0, 0};
   };
@@ -35,13 +34,13 @@ constexpr double pinched = 0.1907, blown = 0.01275;
 
 /// How far the half ball, z > 0, gives way to a radial load, in mm. It continues beyond the plane of its rim, where its
 /// particles are held.
-[[nodiscard]] double blow(const Placement& at, int layers) {
+[[nodiscard]] double blow(const Placement& at, int layers, Choice choice) {
   const double l0 = spacing_of(layers), outer = radius + wall / 2 + l0;
   const auto hollow = [](const Vector& x) { return std::abs(x.norm() - radius) - wall / 2; };
   const auto part = [&](double from, double to) {
     return fit_where_it_lies(at, hollow, {Vector(-outer, -outer, from), Vector(outer, outer, to)}, l0);
   };
-  FittedBody body(l0, {part(l0 / 2, outer), part(-held, l0 / 2)}, Choice::thin_wall, layers, material());
+  FittedBody body(l0, {part(l0 / 2, outer), part(-held, l0 / 2)}, choice, layers, material());
   const double moved =
       body.gives_way(at, {.pattern = [](const Vector& x) { return Vector(x.normalized()); }, .size = 1e4});
   // The mean over the half ball, which includes the half layer of held particles on this side of the rim.
@@ -52,32 +51,30 @@ constexpr double pinched = 0.1907, blown = 0.01275;
 }  // namespace
 }  // namespace shells_detail
 
-report::Table half_cylinder(bool quick) {
+Comparison half_cylinder() {
   using namespace shells_detail;
-  return compared({.name = "half_cylinder",
-                   .of = "the half cylinder",
-                   .measured = "gives way by (mm)",
-                   .answer = pinched,
-                   .digits = 4,
-                   .layers = {2, 3, 4},
-                   .placements = {6, 4, 3},
-                   .measure = pinch,
-                   .spacing = spacing_of},
-                  quick);
+  return {.name = "half_cylinder",
+          .of = "the half cylinder",
+          .measured = "gives way by (mm)",
+          .answer = pinched,
+          .digits = 4,
+          .layers = {2, 3, 4},
+          .placements = {6, 4, 3},
+          .measure = pinch,
+          .spacing = spacing_of};
 }
 
-report::Table half_ball(bool quick) {
+Comparison half_ball() {
   using namespace shells_detail;
-  return compared({.name = "half_ball",
-                   .of = "the half ball",
-                   .measured = "gives way by (mm)",
-                   .answer = blown,
-                   .digits = 5,
-                   .layers = {2, 3, 4},
-                   .placements = {6, 4, 3},
-                   .measure = blow,
-                   .spacing = spacing_of},
-                  quick);
+  return {.name = "half_ball",
+          .of = "the half ball",
+          .measured = "gives way by (mm)",
+          .answer = blown,
+          .digits = 5,
+          .layers = {2, 3, 4},
+          .placements = {6, 4, 3},
+          .measure = blow,
+          .spacing = spacing_of};
 }
 
 }  // namespace fitted

@@ -33,9 +33,9 @@ struct FittedParticles {
   std::vector<S> volumes;               ///< of each particle in m3 (2D: m2); their sum is the volume of the body
   std::vector<int> layers;              ///< number of layers through the wall at each particle, 0 in bulk
   std::vector<S> layer_spacings;        ///< distance of these layers in m, l0 in bulk
-  /// The share of the surface within 1.5 spacings of each particle that belongs to an edge, from 0 to 1: the largest
-  /// ball in the body that touches the surface there meets a neighbouring face instead of the opposite one. A wall ends
-  /// in an edge as deep as half its thickness. In bulk it is 0.
+  /// The share of the surface around each particle (within 1.5 spacings, deep inside walls 3) that belongs to an edge,
+  /// from 0 to 1: the largest ball in the body that touches the surface there meets a neighbouring face instead of the
+  /// opposite one. A wall ends in an edge as deep as half its thickness. In bulk it is 0.
   std::vector<S> edges;
   double spacing = 0;  ///< l0 in m
   int iterations = 0;  ///< number of iterations made

@@ -224,6 +224,9 @@ TEST(Sticking, RejectsWhatIsNoHistory) {
   fails(moved, "not a particle above the one before");
   unsorted[history.size() - 7] = 0;  // the number of the last entry
   fails(unsorted, "all of it and unchanged");
+  auto huge = history;
+  huge.back() = 1e300;  // infinite in the numbers of the contact
+  fails(huge, "all of it and unchanged");
   const hmps::ContactSettings settings{.spacing = l0, .density = density, .friction = 1};
   hmps::MetaballContact<double, 3, hmps::SmoothMetaball, hmps::CorrectedFriction> corrected(settings);
   scene.pile.declare(corrected);

@@ -91,7 +91,7 @@ class ContactHistory {
       next = k + 1;
       Entry& entry = entries[static_cast<std::size_t>(k)];
       entry.call = call_;
-      for (std::size_t c = 0; c < width - 1; ++c) require_history(is_finite(numbers[at + 1 + c]));
+      for (std::size_t c = 0; c < width - 1; ++c) require_history(is_finite(static_cast<float>(numbers[at + 1 + c])));
       for (std::size_t c = 0; c < D; ++c) {
         entry.outward[static_cast<int>(c)] = static_cast<float>(numbers[at + 1 + c]);
         if constexpr (has_slip) {

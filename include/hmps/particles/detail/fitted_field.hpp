@@ -112,8 +112,7 @@ class FittedField {
   [[nodiscard]] Layering layering(const Point& x) const {
     if (-(*this)(x) >= most_layers * spacing_ / 2) return {most_layers * spacing_, spacing_, most_layers, true};
     const double nearby = 1.5 * spacing_, farthest = 13 * spacing_;
-    double weight = 0, sum = 0, least = 0, edges = 0, closest = std::numeric_limits<double>::infinity();
-    double edge = 0;
+    double weight = 0, sum = 0, least = 0, edges = 0, edge = -1, closest = std::numeric_limits<double>::infinity();
     int side = 0;
     for (double radius = nearby; radius < farthest && !(weight > 0); radius *= 2) {
       grid_.visit(x, radius, [&](Index k, double squared) {
@@ -125,18 +124,19 @@ class FittedField {
         if (point.thickness > 0) {
           weight += w * w;
           sum += w * w * point.thickness;
-        } else if (radius == nearby) {
+        } else {
           edges += w * w;
         }
       });
-      if (radius == nearby && edges > 0) edge = edges / (edges + weight);
+      // Of the surface nearest to the particle: further away, the faces of the wall are more and more of it.
+      if (edge < 0 && edges + weight > 0) edge = edges / (edges + weight);
       if (least >= most_layers * spacing_) break;
     }
     const double thickness = std::max(weight > 0 ? sum / weight : most_layers * spacing_, least);
     // Walls half a layer thicker than a whole number are rounded up throughout, whatever the rounding of the thickness.
     const int count = std::max(least_layers_, static_cast<int>(thickness / spacing_ + 0.501));
     const bool thick = thickness > (most_layers - 0.01) * spacing_;
-    return {thickness, thickness / count, count, thick, side, thick ? 0 : edge};
+    return {thickness, thickness / count, count, thick, side, thick ? 0 : std::max(edge, 0.0)};
   }
 
   [[nodiscard]] const std::vector<Sample<D>>& samples() const { return samples_; }
