@@ -172,6 +172,8 @@ TYPED_TEST(Support, NamesTheSpacingWhereNothingIsLeft) {
   F::add_block(points, F::at(0), F::all(6));
   typename F::Points none;
   EXPECT_TRUE(hmps::supported_particles(hmps::vectors(none), {.spacing = 1}).empty());
+  EXPECT_THROW((void)hmps::supported_particles(hmps::vectors(points), {.spacing = 0.9 * F::l0}), hmps::InputError);
+  for (auto& x : points) x[0] *= 1.1f;  // no lattice, whose spacing would be known
   for (const double factor : {0.4, 1e-3}) {
     try {
       (void)hmps::supported_particles(hmps::vectors(points), {.spacing = factor * F::l0});

@@ -95,9 +95,11 @@ void require_plausible_spacing(const FixedRadiusSearch<T, D>& search, const Bond
                        "; the typical distance to the nearest particle is ", apart,
                        " m: give a spacing of that size, in the unit of the positions"});
   const double lattice = sampled_lattice_spacing(search, nearest, apart);
-  require(lattice == 0 || std::abs(lattice / settings.spacing - 1) <= 0.02,
-          "hmps: the particles lie on a lattice of spacing ", lattice, " m, but a spacing of ", settings.spacing,
-          " m was given; give that of the lattice (for a larger or smaller neighbourhood, change radius_ratio)");
+  require(
+      lattice == 0 || std::abs(lattice / settings.spacing - 1) <= 0.02,
+      "hmps: the particles lie on a lattice of spacing ", lattice, " m, but a spacing of ", settings.spacing,
+      " m was given; give that of the lattice, in the unit of the positions (for a larger or smaller neighbourhood, "
+      "change radius_ratio)");
   if (!also_alone) return;
   if (10 * alone >= 9 * samples) {
     const std::string remedy = apart < 1.5 * settings.spacing
