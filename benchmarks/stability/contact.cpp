@@ -57,8 +57,8 @@ class Meeting {
   }
 
   Body<S>& body() { return body_; }
-  /// Number of slaves reported as deep so far; contacts() is the number of all contacts.
-  [[nodiscard]] std::size_t deep() const { return deep_; }
+  /// Number of slaves reported as lost so far; contacts() is the number of all contacts.
+  [[nodiscard]] std::size_t lost() const { return lost_; }
   [[nodiscard]] std::size_t contacts() const { return contacts_; }
 
   /// The stable step of the parts without contact.
@@ -80,7 +80,7 @@ class Meeting {
     hold();
     body_.unload();
     const auto report = contact_.add(x, v, body_.F(), f, dt);
-    deep_ += report.deep;
+    lost_ += report.lost;
     contacts_ += report.contacts;
     hmps::kick(v, f, rho, dt);
     hold();
@@ -160,7 +160,7 @@ class Meeting {
   hmps::MetaballContact<S, 3> contact_;
   std::vector<double> density_;
   std::vector<hmps::Index> skin_[2], wall_[2];
-  std::size_t deep_ = 0, contacts_ = 0;
+  std::size_t lost_ = 0, contacts_ = 0;
 };
 
 /// The fate of a cube thrown at a held wall; empty if it bounces off. The cube counts as broken if a speed exceeds
@@ -179,7 +179,7 @@ std::string thrown(int layers, double share, double speed) {
       return "breaks up";
     }
     if (!scene.sound(limit)) return "breaks up";
-    if (scene.deep() > 0) return "is reported";
+    if (scene.lost() > 0) return "is reported";
     if (scene.passed()) return "passes unreported";
   }
   return "";

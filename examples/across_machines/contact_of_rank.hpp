@@ -150,9 +150,9 @@ class ContactOfRank {
     const auto report = contact_->add(hmps::vectors(std::as_const(x_)), hmps::vectors(std::as_const(v_)),
                                       hmps::matrices(std::as_const(F_)), hmps::vectors(f_), dt);
     late_ = late_before_ + report.late;
-    if (report.deep > 0)
+    if (report.lost > 0)
       throw hmps::StateError(examples::message("hmps: at t = ", t, " s, the wall of '", body_name[report.lost_in],
-                                               "' has lost particle ", particle_[report.lost], " of the scene, ",
+                                               "' has lost particle ", particle_[report.lost_slave], " of the scene, ",
                                                report.lost_depth, " m deep in it or through; try a smaller time step"));
     touching_ = 0;
     for (const auto& [from, to] : copies_) {

@@ -60,8 +60,8 @@ struct ContactReport {
   /// the previous call. See `MetaballContact::check`. In walls of three or more layers this takes a penetration of
   /// about 1.75 spacings, in thinner ones of half the wall. A slave between two faces of one organ that both touch it
   /// is counted too.
-  std::size_t deep = 0;
-  Index lost = 0;              ///< The deepest of these slaves.
+  std::size_t lost = 0;
+  Index lost_slave = 0;        ///< The deepest of these slaves.
   std::size_t lost_in = 0;     ///< The organ that has lost it.
   S lost_depth = 0;            ///< Its p in m; without a normal, that in an undeformed wall.
   S penetration = 0;           ///< The largest p in m.

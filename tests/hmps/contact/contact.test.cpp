@@ -49,7 +49,7 @@ TYPED_TEST(ContactTest, PushesTheBodiesApartAndSumsToZero) {
   const auto pair = pile.declare(contact);
   const auto report = pile.apply(contact, dt);
   EXPECT_GT(report.contacts, 2U);
-  EXPECT_EQ(report.deep, 0U);
+  EXPECT_EQ(report.lost, 0U);
   EXPECT_GT(report.penetration, S(0.02e-3));
   EXPECT_LT(report.penetration, S(0.3e-3));
   EXPECT_LE(pile.total().norm(), S(20) * std::numeric_limits<S>::epsilon() * pile.magnitude());
@@ -285,11 +285,11 @@ TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
     EXPECT_GT(report.contacts, 10U);
     EXPECT_LE(report.penetration, 1.8e-3);
     if (gap > 0) {
-      EXPECT_EQ(report.deep, 0U);
+      EXPECT_EQ(report.lost, 0U);
     }
     // Half way through the two layers of the wall, where the sum is flat.
     if (gap == -0.5) {
-      EXPECT_GT(report.deep, 16U);
+      EXPECT_GT(report.lost, 16U);
     }
   }
   // A wall of three layers saturates.
@@ -298,7 +298,7 @@ TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
   const auto p = thick.add_organ({.name = "plate", .slaves = {}, .masters = pile.plate.all, .prescribed = {}});
   const auto q = thick.add_organ({.name = "block", .slaves = pile.block.bottom, .masters = {}, .prescribed = {}});
   thick.add_pair(p, q, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}});
-  EXPECT_GT(pile.apply(thick, dt).deep, 8U);
+  EXPECT_GT(pile.apply(thick, dt).lost, 8U);
 
   // The middle of a symmetric wall has no normal at all: no force, but a report.
   bodies::Scene<double, 3> scene;
@@ -309,7 +309,7 @@ TEST(Deep, ASlaveInsideAWallIsReportedAndNeverNaN) {
   const auto b = contact.add_organ({.name = "lost", .slaves = lost.all, .masters = {}, .prescribed = {}});
   contact.add_pair(a, b, {.roles = hmps::Roles::only_second_is_slave, .excluded_slaves = {}, .excluded = {}});
   const auto report = scene.apply(contact, dt);
-  EXPECT_EQ(report.deep, 1U);
+  EXPECT_EQ(report.lost, 1U);
   EXPECT_EQ(scene.magnitude(), 0);
 }
 
@@ -347,7 +347,7 @@ void compare_with_plain(int power, bool corrected, const std::function<double(In
       scene.x[i] = start[i] + 0.05e-3 * phase * scene.v[i] / 0.3 + l0 * phase * Scene::Point(0.3, 0.1, -down);
     }
     const auto report = scene.apply(contact, dt);
-    ASSERT_EQ(report.deep, 0U);
+    ASSERT_EQ(report.lost, 0U);
     if (step % 12 != 0) continue;
     const auto x = std::vector<plain::Vec>(scene.x.begin(), scene.x.end());
     const auto v = std::vector<plain::Vec>(scene.v.begin(), scene.v.end());
@@ -837,7 +837,7 @@ TEST(Door, NamesTheStepIfItMakesThePenaltyOverflow) {
 TEST(Door, RefusesTheReportOfAnotherContact) {
   const MetaballContact<double, 3> contact({.spacing = 1e-3, .density = 1000});
   hmps::ContactReport<double> report;
-  report.deep = 1;
+  report.lost = 1;
   report.lost_in = 5;
   EXPECT_THROW(contact.check(report), hmps::InputError);
 }

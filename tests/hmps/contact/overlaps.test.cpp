@@ -52,7 +52,7 @@ TEST(Overlaps, KnowWhatContactDoesNotSee) {
   const auto found = contact.overlaps(hmps::vectors(pile.x));
   ASSERT_EQ(found.size(), 2U);
   EXPECT_GT(found[1].depth, 2.5e-3);
-  EXPECT_GT(found[1].count, before.deep);
+  EXPECT_GT(found[1].count, before.lost);
   EXPECT_EQ(contact.overlaps(hmps::vectors(pile.x)).size(), 2U) << "asking changes nothing";
   EXPECT_EQ(pile.apply(contact, 1e-5).contacts, before.contacts);
 }

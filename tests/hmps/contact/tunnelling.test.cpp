@@ -44,7 +44,7 @@ Throw at_wall(int layers, double ratio, double pace, double phase) {
     } catch (const hmps::StateError& error) {
       result.reported = true;
       if (result.message.empty()) result.message = error.what();
-      EXPECT_EQ(report.lost, i);
+      EXPECT_EQ(report.lost_slave, i);
     }
     if (!result.reported) result.depth = std::max(result.depth, report.penetration / l0);
     scene.v[i] += scene.f[i] * dt / 1000;

@@ -56,7 +56,7 @@ namespace hmps::inline HMPS_ABI {
 /// are built; then the origin moves to that centre. It thus stays constant from step to step, and results change, by
 /// rounding only, each time that all organs have travelled that far.
 ///
-/// Slaves with an undefined normal (deep inside) receive no force and are counted as deep; `check` reports them as an
+/// Slaves with an undefined normal (deep inside) receive no force and are counted as lost; `check` reports them as an
 /// error.
 template <class S, int D, class Kernel = SmoothMetaball, class Friction = SpringFriction, class Penalty = LinearPenalty>
 class MetaballContact {
@@ -175,7 +175,7 @@ class MetaballContact {
   /// inside it for a few steps only, and looks valid afterwards. The check misses no slave that moves less than a
   /// spacing per step relative to the wall, which holds for all speeds below that of sound.
   void check(const ContactReport<S>& report, double time = std::numeric_limits<double>::quiet_NaN()) const {
-    if (report.deep > 0) fail(report, time);
+    if (report.lost > 0) fail(report, time);
   }
 
   /// Finds overlaps of organs in the state `x` (m), `F`: one entry for each pair and role with slaves inside a wall;
@@ -209,7 +209,7 @@ class MetaballContact {
     S penetration;       // positive if the row touches, or did in the previous call
   };
   struct Batch {
-    std::size_t count = 0, deep = 0;
+    std::size_t count = 0, lost = 0;
     Index deepest = 0;  // row
     S depth = 0;
   };

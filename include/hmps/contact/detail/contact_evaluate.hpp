@@ -126,10 +126,10 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::fail(const ContactReport<
                   " organs; give the report of its own latest call");
   throw StateError(detail::message(
       "hmps: ", detail::is_nan(time) ? "" : detail::message("at t = ", time, " s "), "the wall of '",
-      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost, ", which is ",
+      lists_.organs().organs()[report.lost_in].name, "' has lost particle ", report.lost_slave, ", which is ",
       report.lost_depth, " m (", report.lost_depth / static_cast<S>(settings_.spacing),
       " spacings) deep in it or has passed through it",
-      report.deep > 1 ? detail::message("; walls have lost ", report.deep - 1, " more") : "",
+      report.lost > 1 ? detail::message("; walls have lost ", report.lost - 1, " more") : "",
       "; try a smaller time step, a stiffer penalty, more layers of masters, or a slower motion, and give all "
       "organs the spacing of the contact"));
 }
@@ -151,7 +151,7 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V&
         force_[r] = Quad{};
       }
       if (!(depth > S(0))) continue;
-      ++result.deep;
+      ++result.lost;
       if (depth > result.depth) result.depth = depth, result.deepest = static_cast<Index>(r);
     }
     batches_[q] = result;
@@ -159,11 +159,11 @@ void MetaballContact<S, D, Kernel, Friction, Penalty>::find(const X& x, const V&
   for (std::size_t q = 0; q < count; ++q) {
     const auto first = batch_rows_.begin() + static_cast<std::ptrdiff_t>(q * batch);
     touching_.insert(touching_.end(), first, first + static_cast<std::ptrdiff_t>(batches_[q].count));
-    report.deep += batches_[q].deep;
+    report.lost += batches_[q].lost;
     if (!(batches_[q].depth > report.lost_depth)) continue;
     const auto& row = lists_.active().rows()[batches_[q].deepest];
     report.lost_depth = batches_[q].depth;
-    report.lost = lists_.active().awake()[row.slave].particle;
+    report.lost_slave = lists_.active().awake()[row.slave].particle;
     report.lost_in = lists_.organs().sides()[row.side].masters;
   }
 }
