@@ -49,7 +49,7 @@ struct FittedParticles {
   /// part with another spacing.
   void append(FittedParticles part) {
     if (spacing > 0 && part.spacing > 0) {
-      detail::require(spacing == part.spacing, "hmps: a part with a spacing of ", part.spacing,
+      detail::require(std::abs(part.spacing / spacing - 1) < 1e-6, "hmps: a part with a spacing of ", part.spacing,
                       " m is appended to particles with one of ", spacing, " m; fit both with the same spacing");
       clear_edges(*this, part);
       clear_edges(part, *this);
