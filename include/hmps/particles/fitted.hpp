@@ -35,7 +35,8 @@ struct FittedParticles {
   std::vector<S> layer_spacings;        ///< distance of these layers in m, l0 in bulk
   /// The share of the surface around each particle (within 1.5 spacings, deep inside walls 3) that belongs to an edge,
   /// from 0 to 1: the largest ball in the body that touches the surface there meets a neighbouring face instead of the
-  /// opposite one. A wall ends in an edge as deep as half its thickness. In bulk it is 0.
+  /// opposite one. A wall ends in an edge as deep as half its thickness. In bulk it is 0. A face at a plane of
+  /// symmetry counts as an edge although none is there: set it to 0 beside such a face.
   std::vector<S> edges;
   double spacing = 0;  ///< l0 in m
   int iterations = 0;  ///< number of iterations made
