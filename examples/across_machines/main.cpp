@@ -9,7 +9,9 @@
 #include <iostream>
 #include <string>
 
+#include "../common/arguments.hpp"
 #include "../common/error.hpp"
+#include "../common/streams.hpp"
 #include "checkpoint.hpp"
 #include "messages.hpp"
 #include "partition.hpp"
@@ -68,7 +70,17 @@ void report(const Ranks& ranks, const Simulation& simulation, std::uint64_t step
   std::fflush(stdout);
 }
 
+/// Refuses at once a file that could not be written hours later.
+void require_place(const std::string& out) {
+  examples::require(!out.empty() && !std::filesystem::is_directory(out), "hmps: --out is '", out,
+                    "', which is no name of a file; give one");
+  const std::filesystem::path folder = std::filesystem::absolute(out).parent_path();
+  examples::require(std::filesystem::is_directory(folder), "hmps: the folder ", folder.string(), " of --out ", out,
+                    " does not exist; make it, or give a file in another one");
+}
+
 void run(const Options& options, const Ranks& ranks) {
+  if (ranks.rank == 0) require_place(options.out);
   const Scene scene(options.particles);
   const RunSettings settings{scene.size(), options.dt};
   State state;
@@ -136,14 +148,22 @@ void measure_network(const Ranks& ranks) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  examples::check_standard_streams("across_machines");
   Options options;
   CLI::App app("A block of soft tissue on a plate that is pulled away, on any number of MPI ranks.", "across_machines");
-  app.add_option("--particles", options.particles, "about how many")->capture_default_str();
-  app.add_option("--time-step", options.dt, "s")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--steps", options.steps, "up to which step")->capture_default_str();
+  app.add_option("--particles", options.particles, "about how many")
+      ->capture_default_str()
+      ->check(examples::is_decimal());
+  app.add_option("--time-step", options.dt, "s")
+      ->capture_default_str()
+      ->check(examples::within(1e-12, 1, "the time step must lie between 1e-12 and 1 s"));
+  constexpr long most = 1'000'000'000'000;
+  app.add_option("--steps", options.steps, "up to which step")
+      ->capture_default_str()
+      ->transform(examples::whole_within(0, most, "the number of steps must lie between 0 and 1e12"));
   app.add_option("--every", options.every, "steps between checkpoints")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->transform(examples::whole_within(1, most, "the steps between checkpoints must lie between 1 and 1e12"));
   app.add_option("--out", options.out, "the checkpoint, and at the end the result")->capture_default_str();
   app.add_flag("--resume", options.resume, "go on from the checkpoint, on any number of ranks");
   app.add_flag("--plain", options.plain, "on one rank, without parts and messages: the same bits");

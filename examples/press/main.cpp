@@ -15,6 +15,7 @@
 
 #include "../common/error.hpp"
 #include "../common/numbers.hpp"
+#include "../common/streams.hpp"
 #include "organ.hpp"
 #include "output.hpp"
 
@@ -90,6 +91,7 @@ void run(const hmps::SurfaceMesh<double>& mesh, double particles) {
 }
 
 int main(int argc, char** argv) try {
+  examples::check_standard_streams("press");
   examples::require(argc <= 4, "press: '", argv[std::min(argc - 1, 4)], "' is one argument too many; give at most the ",
                     "number of particles, a surface and its scale");
   const auto number = [&](int k, const char* name, double otherwise) {
@@ -100,7 +102,7 @@ int main(int argc, char** argv) try {
   };
   const double particles = number(1, "PARTICLES", 3000), scale = number(3, "SCALE", 1);
   run(argc > 2 ? hmps::read_surface(argv[2], scale) : press::organ(), particles);
-  return std::fflush(stdout) == 0 ? 0 : 1;
+  return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;
