@@ -195,7 +195,7 @@ template <class A, class S = double>
                   "; give 0, 1 or 2 for x, y or z");
   return detail::Combined{[a = std::move(a), axis, at](const auto& x) {
     using Scalar = typename std::decay_t<decltype(x)>::Scalar;
-    auto folded = x;
+    typename std::decay_t<decltype(x)>::PlainObject folded = x;  // a copy, also of a column or a map
     detail::require(axis < x.size(), "hmps: a shape in ", x.size(), " dimensions is mirrored along the axis ", axis,
                     "; give 0 or 1 for x or y");
     folded[axis] = static_cast<Scalar>(at) + std::abs(x[axis] - static_cast<Scalar>(at));

@@ -184,4 +184,18 @@ TEST(Combinations, ShellOfAnIntegerThicknessIsThatThick) {
   EXPECT_NEAR(wall(Vector<double, 3>(5, 0, 0)), 0.5, 1e-12);
 }
 
+// Once the fold was written to the caller's array.
+TEST(Mirrored, LeavesTheArrayOfTheCallerAlone) {
+  const auto lobes = hmps::mirrored(hmps::Ball<double, 3>{.centre = {0.2, 0, 0}, .radius = 0.1}, 0);
+  Eigen::Matrix3Xd columns(3, 1);
+  columns << -0.2, 0, 0;
+  EXPECT_DOUBLE_EQ(lobes(columns.col(0)), -0.1);
+  EXPECT_EQ(columns(0, 0), -0.2);
+  double raw[] = {-0.25, 0, 0};
+  EXPECT_NEAR(lobes(Eigen::Map<Eigen::Vector3d>(raw)), -0.05, 1e-15);
+  EXPECT_EQ(raw[0], -0.25);
+  const auto twice = hmps::warped(lobes, [](const hmps::Vector<double, 3>& x) { return 2 * x; });
+  EXPECT_DOUBLE_EQ(twice(hmps::Vector<double, 3>(-0.1, 0, 0)), -0.1);
+}
+
 }  // namespace combine_test
